@@ -1,0 +1,2 @@
+set(SOURCES error.cpp)
+set(HEADERS angle.hpp error.hpp progress.hpp)

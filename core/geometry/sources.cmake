@@ -1,0 +1,2 @@
+set(SOURCES)
+set(HEADERS frame.hpp profile.hpp ridge.hpp surface.hpp workpiece.hpp)

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <variant>
+
+namespace ridgeline::geometry {
+
+/// Circular cylinder of infinite length. Distance > 0 outside.
+struct Cylinder {
+  Eigen::Vector3d point;  ///< on the axis [mm]
+  Eigen::Vector3d axis;   ///< unit
+  double radius = 0;      ///< [mm], > 0
+};
+
+/// Plane. Distance > 0 on the side of the normal.
+struct Plane {
+  Eigen::Vector3d point;
+  Eigen::Vector3d normal;  ///< unit
+};
+
+/// What a hole breaks into or out of.
+using Surface = std::variant<Cylinder, Plane>;
+
+/// Value, gradient and Hessian of the signed distance of a surface.
+struct SurfaceDistance {
+  double value = 0;
+  Eigen::Vector3d gradient;
+  Eigen::Matrix3d hessian;
+};
+
+SurfaceDistance signed_distance(const Surface& surface, const Eigen::Vector3d& p);
+
+}  // namespace ridgeline::geometry

@@ -1,0 +1,2 @@
+set(SOURCES)
+set(HEADERS measure.hpp)
