@@ -1,2 +1,2 @@
 set(SOURCES)
-set(HEADERS job.hpp section.hpp)
+set(HEADERS job.hpp loop.hpp section.hpp)

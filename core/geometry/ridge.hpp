@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
+#include <vector>
 
 #include "core/geometry/frame.hpp"
 #include "core/geometry/profile.hpp"
@@ -10,6 +12,14 @@ namespace ridgeline::geometry {
 
 enum class Side { Entry, Exit };
 
+/// Where the wall or the body surface ends: the far side of the wall, the ends of the workpiece.
+/// Hole frame.
+struct Bound {
+  Surface surface;
+  double m = 1;      ///< material at m * distance > 0
+  std::string name;  ///< for messages, e.g. "the outer surface"
+};
+
 /// One ridge line, in the hole frame: z' along A2, x' along A1 x A2, y' = z' x x' (towards A1).
 /// Origin on A2 at the foot of the shortest line between A2 and A1, which passes x' = -f. Source:
 /// document 000, [0066]..[0075], equations (2)..(7), written for any profile and body.
@@ -18,7 +28,8 @@ struct Edge {
   Profile profile;  ///< wall SW: the profile extruded along z'
   Surface body;     ///< SS, in the hole frame
   double m = 1;     ///< material sign: +1 material at body distance > 0 (bore), -1 at < 0 (outside)
-  Side side = Side::Entry;  ///< entry: the meeting point of greater z'
+  Side side = Side::Entry;    ///< entry: the meeting point of greater z'
+  std::vector<Bound> bounds;  ///< a chamfer must keep inside each
   bool merged = false;  ///< broken-out hole: entry and exit are one curve, parametrised about A1
 };
 

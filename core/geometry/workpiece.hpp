@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/frame.hpp"
 #include "core/geometry/profile.hpp"
 #include "core/geometry/ridge.hpp"
 
@@ -41,6 +42,25 @@ struct Workpiece {
 /// Which edge of a hole: the ridge of `hole` with the bore (inner) or the outside (outer), on the
 /// side of +A2 (entry) or the other (exit).
 enum class EdgeKind { Inner, Outer };
+
+/// The hole frame of two axes (position and direction each): z' along A2, x' along A1 x A2, y' = z'
+/// x x', origin on A2 at the foot of the common perpendicular. A1 passes x' = -f.
+/// Throws Error{BadInput} when A2 is tilted 80 degrees or more towards A1.
+Frame hole_frame(const Workpiece& workpiece, const Hole& hole);
+
+/// f, signed: where A1 passes the hole axis is x' = -f in the hole frame [mm].
+double eccentric_distance(const Workpiece& workpiece, const Hole& hole);
+
+/// A point of A2 for a hole that is placed by f alone: the workpiece position moved by f along x'.
+Eigen::Vector3d position_of(const Workpiece& workpiece, const Eigen::Vector3d& hole_axis, double f);
+
+/// Frame of a manifold block, centred: x across, y along A1, z up (the part of Z square to A1; for
+/// an upright bore x is the work X).
+Frame block_frame(const Workpiece& workpiece);
+
+/// Height z' in the hole frame of the floor of a blind hole: `depth` below where A2 leaves the
+/// outside on the + side. nullopt: no depth given. Throws Error{HoleMissesBody} when A2 misses.
+std::optional<double> floor_height(const Workpiece& workpiece, const Hole& hole);
 
 /// Builds the edge in the hole frame. Throws Error: InconsistentEccentricity, TangentIntersection,
 /// HoleMissesBody (no closed edge there, or walls = 1 and exit), BadInput (radii, lengths).
