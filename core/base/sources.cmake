@@ -1,2 +1,2 @@
 set(SOURCES error.cpp)
-set(HEADERS angle.hpp error.hpp progress.hpp)
+set(HEADERS angle.hpp error.hpp progress.hpp tolerance.hpp)

@@ -1,2 +1,2 @@
-set(SOURCES)
-set(HEADERS motion.hpp)
+set(SOURCES arc.cpp)
+set(HEADERS arc.hpp motion.hpp)
