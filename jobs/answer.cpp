@@ -1,0 +1,63 @@
+#include "jobs/answer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <new>
+#include <span>
+
+#include "jobs/kinds.hpp"
+#include "jobs/parse.hpp"
+#include "jobs/reader.hpp"
+
+namespace ridgeline::jobs {
+namespace {
+
+struct Kind {
+  std::string_view name;  ///< value of "job"
+  Answer (*run)(const Request&);
+  std::span<const std::string_view> formats;
+};
+
+/// Every kind of job. A new one is one line here and one function in kinds.hpp.
+constexpr std::array<Kind, 0> kinds{};
+
+const Kind& kind_of(const nlohmann::json& document) {
+  const Value value = Object(Value(document)).required("job");
+  const std::string& name = value.string();
+  const auto* found = std::ranges::find(kinds, name, &Kind::name);
+  if (found != kinds.end()) return *found;
+  std::array<std::string_view, kinds.size()> names;
+  std::ranges::transform(kinds, names.begin(), &Kind::name);
+  value.refuse(alternatives(names));
+}
+
+Answer run(std::string_view job, std::string_view format, const Definitions& definitions,
+           const Progress& progress) {
+  const nlohmann::json document = parse(job);
+  const Kind& kind = kind_of(document);
+  if (std::ranges::find(kind.formats, format) == kind.formats.end())
+    refuse({.code = ErrorCode::Unsupported,
+            .field = "",
+            .value = std::string(format),
+            .limit = alternatives(kind.formats),
+            .message = "a " + std::string(kind.name) + " job has no format \"" + shortened(format) +
+                       "\": ask for " + alternatives(kind.formats)});
+  return kind.run({document, format, definitions, progress});
+}
+
+}  // namespace
+
+Answer answer(std::string_view job, std::string_view format, const Definitions& definitions,
+              const Progress& progress) noexcept {
+  try {
+    return run(job, format, definitions, progress);
+  } catch (const Error& error) {
+    return refusal(error);
+  } catch (const std::bad_alloc&) {
+    return refusal(Error(ErrorCode::Internal, "the job needs more memory than there is"));
+  } catch (const std::exception& error) {
+    return refusal(Error(ErrorCode::Internal, error.what()));
+  }
+}
+
+}  // namespace ridgeline::jobs
