@@ -47,11 +47,11 @@ std::optional<ErrorCode> error_code(std::string_view name) noexcept;
 
 /// What the error object says beyond its message. Empty members are left out.
 struct ErrorDetails {
-  std::string field;                      ///< JSON pointer of the offending field, e.g. "/width"
-  std::string value;                      ///< its value as text
-  std::string limit;                      ///< the limit that it breaks, as text with unit
-  std::optional<double> parameter;        ///< profile parameter u in [0, 1) of the place
-  std::optional<Eigen::Vector3d> target;  ///< target point P there [mm, work frame]
+  std::string field = {};                ///< JSON pointer of the offending field, e.g. "/width"
+  std::string value = {};                ///< its value as text
+  std::string limit = {};                ///< the limit that it breaks, as text with unit
+  std::optional<double> parameter = {};  ///< profile parameter u in [0, 1) of the place
+  std::optional<Eigen::Vector3d> target = {};  ///< target point P there [mm, work frame]
 };
 
 /// The one exception type of the core. The message names the field or quantity, its value, unit and
