@@ -1,2 +1,2 @@
 set(SOURCES)
-set(HEADERS tool.hpp)
+set(HEADERS coefficients.hpp tool.hpp)

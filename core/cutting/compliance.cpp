@@ -1,0 +1,96 @@
+#include "core/cutting/compliance.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "core/cutting/require.hpp"
+
+namespace ridgeline::cutting {
+namespace {
+
+std::complex<double> sum_of_modes(const Modes& modes, double frequency) {
+  std::complex<double> sum = 0;
+  for (const auto& [fn, zeta, k] : modes) {
+    const double ratio = frequency / fn;
+    sum += 1 / k / std::complex<double>(1 - ratio * ratio, 2 * zeta * ratio);
+  }
+  return sum;
+}
+
+std::complex<double> interpolated(const MeasuredResponse& measured, double frequency) {
+  const auto& [lines, values] = measured;
+  if (frequency <= lines.front()) {
+    return frequency < lines.front() ? values.front().real() : values.front();
+  }
+  if (frequency >= lines.back()) {
+    const double fall = lines.back() / frequency;
+    return values.back() * (fall * fall);
+  }
+  const auto above = static_cast<std::size_t>(
+      std::upper_bound(lines.begin(), lines.end(), frequency) - lines.begin());
+  const double s = (frequency - lines[above - 1]) / (lines[above] - lines[above - 1]);
+  return values[above - 1] * (1 - s) + values[above] * s;
+}
+
+// Local maxima of |G| that stand out: at least a tenth of the greatest.
+std::vector<double> peaks(const MeasuredResponse& measured) {
+  const auto& [lines, values] = measured;
+  double greatest = 0;
+  for (const auto& value : values) greatest = std::max(greatest, std::abs(value));
+  std::vector<double> found;
+  for (std::size_t i = 1; i + 1 < values.size(); ++i) {
+    const double here = std::abs(values[i]);
+    const bool is_top = here > std::abs(values[i - 1]) && here >= std::abs(values[i + 1]);
+    if (is_top && here >= greatest / 10) found.push_back(lines[i]);
+  }
+  return found;
+}
+
+void validate(const Direction& direction, const std::string& field) {
+  if (const auto* modes = std::get_if<Modes>(&direction)) {
+    for (const Mode& mode : *modes) {
+      require_between("/case/modes_" + field, mode.frequency, 0.1, 1e6, "Hz");
+      require_between("/case/modes_" + field, mode.damping, 1e-6, 0.999, "of critical damping");
+      require_between("/case/modes_" + field, mode.stiffness, 1e-3, 1e9, "N/mm");
+    }
+    return;
+  }
+  const auto& [lines, values] = std::get<MeasuredResponse>(direction);
+  require_between("/case/frf_" + field, static_cast<double>(lines.size()), 2, 1e6, "lines");
+  require_between("/case/frf_" + field, static_cast<double>(values.size()),
+                  static_cast<double>(lines.size()), static_cast<double>(lines.size()), "values");
+  require_between("/case/frf_" + field, lines.front(), 0, 1e6, "Hz");
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const double from = i == 0 ? 0 : lines[i - 1] * (1 + 1e-12);
+    require_between("/case/frf_" + field, lines[i], from, 1e6, "Hz, ascending");
+    require_between("/case/frf_" + field, std::abs(values[i]), 0, 1e3, "mm/N");
+  }
+}
+
+}  // namespace
+
+std::complex<double> compliance_at(const Direction& direction, double frequency) {
+  if (const auto* modes = std::get_if<Modes>(&direction)) return sum_of_modes(*modes, frequency);
+  return interpolated(std::get<MeasuredResponse>(direction), frequency);
+}
+
+std::vector<double> natural_frequencies(const Compliance& compliance) {
+  std::vector<double> found;
+  for (const Direction* direction : {&compliance.x, &compliance.y}) {
+    if (const auto* modes = std::get_if<Modes>(direction)) {
+      for (const Mode& mode : *modes) found.push_back(mode.frequency);
+    } else {
+      const std::vector<double> tops = peaks(std::get<MeasuredResponse>(*direction));
+      found.insert(found.end(), tops.begin(), tops.end());
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+void validate(const Compliance& compliance) {
+  validate(compliance.x, "x");
+  validate(compliance.y, "y");
+}
+
+}  // namespace ridgeline::cutting

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/cutting/force.hpp"
+
+namespace ridgeline::cutting {
+
+/// How the iteration runs. The names of the document where it has them.
+struct IterateOptions {
+  double alpha = 0.01;                       ///< converged when A < alpha sum |D4|^2 (2)
+  double beta = 3;                           ///< diverges when A > beta min(earlier A)
+  int stall = 10;                            ///< or after so many loops without a new minimum
+  std::vector<double> weights{1, 3, 6, 10};  ///< w1 at the start and after each divergence
+  bool adapt = true;                         ///< change weights at all
+  int max_loops = 150;
+  std::optional<double> kappa;  ///< low-pass at kappa / tc; absent: none
+  Span span = Span::Revolution;
+};
+
+/// At which loop w1 became what.
+struct WeightChange {
+  int loop = 0;
+  double w1 = 0;
+};
+
+/// What predicts an error, whichever way.
+struct Prediction {
+  std::optional<double> e;  ///< machining error; nullopt when nothing cuts [mm]
+  bool converged = false;
+  int loops = 0;  ///< force evaluations
+  double w1 = 1;
+  std::vector<WeightChange> weight_changes;
+  std::vector<double> A;  ///< residual of each loop (1) [mm2]
+  std::vector<std::optional<double>> e_history;
+  std::optional<double> cutoff;  ///< of the low-pass [Hz]
+  double contact_time = 0;       ///< tc, of one tooth in the first loop [s]
+  int cut_points = 0;            ///< of the last force evaluation
+  Forces F;                      ///< N samples (a pitch: N / z)
+  Deflections D;                 ///< D4, the same
+  double reach = 0;              ///< deflection that the chips were searched for [mm]
+};
+
+/// The method of document 001 (figures 2 and 13): loops over one revolution. `S` is the spindle
+/// speed [rev/s]; `start` the last deflection of the path segment before, of any number of samples,
+/// or empty; loop 1 from nothing is the rigid method. Throws Error{BadInput} when the low-pass
+/// would cut the tool's own resonance.
+Prediction iterate(const Cut& cut, const Compliance& compliance, double S,
+                   const IterateOptions& options, const Deflections& start = {});
+
+/// The rigid method: one loop from no deflection.
+Prediction rigid(const Cut& cut, const Compliance& compliance, double S, Span span);
+
+}  // namespace ridgeline::cutting
