@@ -1,2 +1,2 @@
-set(SOURCES error.cpp)
-set(HEADERS angle.hpp error.hpp progress.hpp tolerance.hpp)
+set(SOURCES error.cpp text.cpp)
+set(HEADERS angle.hpp error.hpp progress.hpp text.hpp tolerance.hpp)

@@ -45,8 +45,20 @@ struct RidgePoint {
   double theta = 0;    ///< material wedge angle [rad]
 };
 
+/// An edge made ready for many evaluations.
+struct RidgeLine {
+  Quadric F;        ///< body surface SS
+  Profile profile;  ///< wall SW
+  double m = 1;
+  Side side = Side::Entry;
+};
+RidgeLine ridge_line(const Edge& edge);
+
 /// The ridge at parameter u in [0, 1), counter-clockwise seen from +A2 from phi = 0; merged edges:
 /// angle about A1.
+/// Throws Error{HoleMissesBody} where the generator at u does not meet the body (an edge that
+/// edge_of() did not make).
 RidgePoint ridge_at(const Edge& edge, double u);
+RidgePoint ridge_at(const RidgeLine& ridge, double u);
 
 }  // namespace ridgeline::geometry

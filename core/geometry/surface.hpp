@@ -28,6 +28,23 @@ struct SurfaceDistance {
   Eigen::Matrix3d hessian;
 };
 
+/// A surface as F(p) = p.Q p / 2 + l.p + c = 0, scaled so that its gradient Q p + l is the unit
+/// normal on the surface: one polynomial for every body, [E 4, 13] for the cylinder.
+struct Quadric {
+  Eigen::Matrix3d Q;
+  Eigen::Vector3d l;
+  double c = 0;
+};
+
+inline double value(const Quadric& F, const Eigen::Vector3d& p) {
+  return 0.5 * p.dot(F.Q * p) + F.l.dot(p) + F.c;
+}
+inline Eigen::Vector3d gradient(const Quadric& F, const Eigen::Vector3d& p) {
+  return F.Q * p + F.l;
+}
+
+Quadric quadric(const Surface& surface);
+
 SurfaceDistance signed_distance(const Surface& surface, const Eigen::Vector3d& p);
 
 }  // namespace ridgeline::geometry
