@@ -23,16 +23,15 @@ double angle(const Point& centre, const Point& p) {
   return std::atan2(p.r - centre.r, p.z - centre.z);
 }
 
-/// Signed angle that an arc turns through; a full circle when start and end are one.
+/// Signed angle that an arc turns through; a full circle when start and end are one. Ends that a
+/// vertex moved past each other make a hair of an arc the other way, not nearly a full circle.
 double turn(const Segment& segment) {
   const double from = angle(segment.arc->centre, segment.start);
-  double by = angle(segment.arc->centre, segment.end) - from;
-  if (segment.arc->sense == Sense::CounterClockwise) {
-    while (by <= 0) by += 2 * pi;
-  } else {
-    while (by >= 0) by -= 2 * pi;
-  }
-  return by;
+  const double by = std::remainder(angle(segment.arc->centre, segment.end) - from, 2 * pi);
+  const double gap = distance(segment.start, segment.end);
+  if (gap > 0 && gap < 10 * vertex_tolerance && std::abs(by) * radius(segment) < 2 * gap) return by;
+  if (segment.arc->sense == Sense::CounterClockwise) return by > 0 ? by : by + 2 * pi;
+  return by < 0 ? by : by - 2 * pi;
 }
 
 Point on_circle(const Point& centre, double radius, double angle) {
@@ -159,7 +158,7 @@ std::vector<Segment> boundary(const Region& region) {
     }
   }
   std::erase_if(found, [](const Segment& segment) {
-    return distance(segment.start, segment.end) <= merge_tolerance && !segment.arc;
+    return distance(segment.start, segment.end) <= merge_tolerance;
   });
   return found;
 }
