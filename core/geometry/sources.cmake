@@ -1,2 +1,2 @@
-set(SOURCES edge.cpp profile.cpp ridge.cpp surface.cpp workpiece.cpp)
-set(HEADERS frame.hpp profile.hpp ridge.hpp surface.hpp workpiece.hpp)
+set(SOURCES edge.cpp line_meetings.cpp material.cpp profile.cpp ridge.cpp seam.cpp solid.cpp surface.cpp trace.cpp workpiece.cpp)
+set(HEADERS frame.hpp line_meetings.hpp material.hpp profile.hpp ridge.hpp solid.hpp surface.hpp trace.hpp workpiece.hpp)

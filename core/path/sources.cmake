@@ -1,2 +1,2 @@
-set(SOURCES arc.cpp)
-set(HEADERS arc.hpp motion.hpp)
+set(SOURCES arc.cpp pieces.cpp)
+set(HEADERS arc.hpp motion.hpp pieces.hpp)
