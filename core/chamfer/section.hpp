@@ -14,7 +14,8 @@ struct Bisector {};
 struct ConstantAngle {
   double delta = 0;
 };
-/// delta over phi [rad], periodic in 2 pi, linear between entries, ascending in phi.
+/// delta over phi [rad], the polar angle of P about A2 in the hole frame; periodic in 2 pi, linear
+/// between entries, ascending in phi within one turn.
 struct AngleTable {
   struct Entry {
     double phi = 0;
@@ -43,7 +44,20 @@ struct SectionPoint {
   Eigen::Vector3d C;   ///< tool centre
 };
 
-/// Section method [E 16]..[E 22]. Throws Error{WidthTooLarge} with u and P.
+/// An edge and a chamfer made ready for many points. Refers to both: they must outlive it.
+struct Section {
+  const geometry::Edge* edge = nullptr;
+  const Chamfer* chamfer = nullptr;
+  geometry::RidgeLine ridge;
+  double CM = 0;                        ///< from C to the middle of G1 and G2 [E 16]
+  double sin_delta = 0, cos_delta = 0;  /// of a constant section angle
+};
+
+/// Throws Error: BadInput (W, D or an angle out of range), WidthTooLarge (W >= 2 D).
+Section section(const geometry::Edge& edge, const Chamfer& chamfer);
+
+/// Section method [E 11]..[E 22]. Throws Error{WidthTooLarge} with u and P.
+SectionPoint section_at(const Section& section, double u);
 SectionPoint section_at(const geometry::Edge& edge, const Chamfer& chamfer, double u);
 
 /// Swept method (design: section 5): the same borders, the centre that really cuts them. Throws

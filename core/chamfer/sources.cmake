@@ -1,2 +1,2 @@
-set(SOURCES)
-set(HEADERS job.hpp loop.hpp section.hpp)
+set(SOURCES section.cpp section_angle.cpp)
+set(HEADERS job.hpp loop.hpp section.hpp section_angle.hpp)

@@ -35,10 +35,8 @@ RidgeLine ridge_line(const Edge& edge) {
 }
 
 // Document 000, [0087]..[0093], any profile and body (design: section 3).
-RidgePoint ridge_at(const RidgeLine& ridge, double u) {
+RidgePoint ridge_at(const RidgeLine& ridge, const ProfilePoint& profile, double u) {
   const double m = ridge.m;
-  const ProfilePoint profile = profile_at(ridge.profile, u);
-
   const Eigen::Vector3d P(profile.p.x(), profile.p.y(),
                           height_at(ridge, profile.p, u));  // [E 2..7]
   const Eigen::Vector3d n1 = gradient(ridge.F, P);
@@ -53,6 +51,10 @@ RidgePoint ridge_at(const RidgeLine& ridge, double u) {
           .e1 = n2,
           .e2 = v / s,  // [E 9]
           .theta = std::atan2(s, -c)};
+}
+
+RidgePoint ridge_at(const RidgeLine& ridge, double u) {
+  return ridge_at(ridge, profile_at(ridge.profile, u), u);
 }
 
 RidgePoint ridge_at(const Edge& edge, double u) {

@@ -61,4 +61,7 @@ RidgeLine ridge_line(const Edge& edge);
 RidgePoint ridge_at(const Edge& edge, double u);
 RidgePoint ridge_at(const RidgeLine& ridge, double u);
 
+/// The same where the point of the profile at u is already known.
+RidgePoint ridge_at(const RidgeLine& ridge, const ProfilePoint& profile, double u);
+
 }  // namespace ridgeline::geometry

@@ -1,2 +1,2 @@
-set(SOURCES)
-set(HEADERS)
+set(SOURCES contour.cpp curve.cpp offset.cpp overlay.cpp region.cpp)
+set(HEADERS contour.hpp curve.hpp offset.hpp overlay.hpp region.hpp tolerance.hpp)

@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "jobs/chamfer_job.hpp"
+#include "jobs/check.hpp"
+#include "jobs/drawing.hpp"
+#include "jobs/kinds.hpp"
+#include "jobs/motion.hpp"
+
+namespace ridgeline::jobs {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// A solved job with the certificate of its program: the motion as the program says it, measured.
+struct Solved {
+  chamfer::Result result;
+  nc::Program program;
+  path::Motion rounded;
+  verify::Subject subject;
+  verify::Report report;
+  double verify_seconds = 0;
+};
+
+Solved solve(const ChamferJob& job, double tolerance, const Progress& progress) {
+  chamfer::Job core_job = job.job;
+  core_job.tolerance = tolerance;
+  Solved solved;
+  solved.result = chamfer::solve(core_job, progress);
+  solved.program = job.program;
+  solved.program.motion = solved.result.motion;
+  solved.program.tool_axis = solved.result.tool_axis;
+  const Clock::time_point begin = Clock::now();
+  progress.at(0.9, "verify");
+  solved.rounded = nc::rounded(solved.program);
+  solved.subject = subject_of(job, solved.result.tool_axis);
+  solved.report = verify::measure(solved.subject, solved.rounded);
+  solved.verify_seconds = seconds_since(begin);
+  return solved;
+}
+
+/// A swept path that chooses its points keeps the width; a section path shows what the section
+/// method gives, and a chosen number of points what so many give.
+bool keeps_width(const ChamferJob& job) {
+  return job.job.method == chamfer::Method::Swept && !job.job.points;
+}
+
+/// By how much the measured width misses the asked one.
+double width_error(const Solved& solved) {
+  const double W = solved.subject.width;
+  return std::max(W - solved.report.width_min, solved.report.width_max - W);
+}
+
+/// Where the surfaces meet at a blunt angle, the width changes by more than the path does: solves
+/// again with the tolerance that the width needs.
+Solved solve_to_width(const ChamferJob& job, const Progress& progress) {
+  double tolerance = job.job.tolerance;
+  Solved solved = solve(job, tolerance, progress);
+  if (!keeps_width(job)) return solved;
+  constexpr int most_repeats = 3;
+  constexpr double margin = 0.9;
+  const double limit = width_limit(job);
+  for (int i = 0; i < most_repeats && width_error(solved) > limit; ++i) {
+    tolerance *= margin * limit / width_error(solved);
+    solved = solve(job, tolerance, progress);
+  }
+  return solved;
+}
+
+/// Throws the first failure of a program that must not be emitted.
+void refuse_failures(const ChamferJob& job, const Solved& solved) {
+  for (const Error& error : failures(job, solved.subject, solved.report)) {
+    const bool is_width =
+        error.code() == ErrorCode::VerificationFailed && error.details().parameter;
+    if (!is_width || keeps_width(job)) throw error;
+  }
+}
+
+nlohmann::json named(const std::string& name, const std::optional<int>& revision) {
+  nlohmann::json document = {{"name", nullptr}, {"revision", nullptr}};
+  if (!name.empty()) document["name"] = name;
+  if (revision) document["revision"] = *revision;
+  return document;
+}
+
+nlohmann::json report(const Solved& solved) {
+  nlohmann::json document = report_document(solved.report);
+  document["points"] = solved.result.centres.size();
+  document["points_optimal"] = solved.result.points_optimal;
+  document["chord_error"] = solved.result.chord_error;
+  document["solve_seconds"] = solved.result.solve_seconds;
+  document["verify_seconds"] = solved.verify_seconds;
+  return document;
+}
+
+std::vector<std::string> warnings(const ChamferJob& job, const Solved& solved) {
+  std::vector<std::string> all = job.warnings;
+  for (const std::string& warning : solved.result.warnings)
+    if (std::ranges::find(all, warning) == all.end()) all.push_back(warning);
+  for (const std::string& warning : unchecked(solved.report))
+    if (std::ranges::find(all, warning) == all.end()) all.push_back(warning);
+  return all;
+}
+
+Array ends_array(const chamfer::Result& result) {
+  Array array{"/ends", {result.G1.size(), 6}, {}};
+  array.values.reserve(6 * result.G1.size());
+  for (std::size_t i = 0; i < result.G1.size(); ++i) {
+    const Eigen::Vector3d &a = result.G1[i], &b = result.G2[i];
+    array.values.insert(array.values.end(), {a.x(), a.y(), a.z(), b.x(), b.y(), b.z()});
+  }
+  return array;
+}
+
+Answer document_of(const ChamferJob& job, const Solved& solved) {
+  const chamfer::Job& j = job.job;
+  const chamfer::Result& result = solved.result;
+  nlohmann::json tool = named(j.tool.name, job.tool_revision);
+  tool["number"] = j.tool.number == 0 ? nlohmann::json(nullptr) : nlohmann::json(j.tool.number);
+  Answer answer;
+  answer.document = {
+      {"job", "chamfer"},
+      {"status", "ok"},
+      {"method", name(j.method)},
+      {"workpiece", named(j.workpiece.name, job.workpiece_revision)},
+      {"hole", j.hole},
+      {"edge", name(j.edge)},
+      {"side", name(j.side)},
+      {"tool", tool},
+      {"tool_axis", {result.tool_axis.x(), result.tool_axis.y(), result.tool_axis.z()}},
+      {"width", j.width},
+      {"tolerance", j.tolerance},
+      {"report", report(solved)},
+      {"warnings", warnings(job, solved)}};
+  return answer;
+}
+
+void add_arrays(const Solved& solved, Answer& answer) {
+  const chamfer::Result& result = solved.result;
+  answer.arrays.push_back({"/parameter", {result.parameter.size()}, result.parameter});
+  answer.arrays.push_back(points_array("/targets", result.targets));
+  answer.arrays.push_back(points_array("/centres", result.centres));
+  answer.arrays.push_back(ends_array(result));
+  answer.arrays.push_back(moves_array("/moves", solved.rounded, answer.document));
+}
+
+}  // namespace
+
+Answer chamfer(const Request& request) {
+  const ChamferJob job = read_chamfer_job(Value(request.document), request.definitions);
+  chamfer::validate(job.job);
+  const Solved solved = solve_to_width(job, request.progress);
+  refuse_failures(job, solved);
+  Answer answer = document_of(job, solved);
+  if (request.format == "nc")
+    answer.text = nc::write(solved.program);
+  else if (request.format == "svg")
+    answer.text = chamfer_drawing(job.job, solved.subject.edge, solved.result);
+  else
+    add_arrays(solved, answer);
+  return answer;
+}
+
+}  // namespace ridgeline::jobs
