@@ -1,2 +1,2 @@
-set(SOURCES g_code_writer.cpp klartext_writer.cpp plan.cpp text.cpp tilted_plane.cpp validate.cpp write.cpp)
-set(HEADERS plan.hpp program.hpp text.hpp tilted_plane.hpp validate.hpp writers.hpp)
+set(SOURCES cl.cpp g_code_writer.cpp klartext_writer.cpp plan.cpp text.cpp tilted_plane.cpp validate.cpp write.cpp)
+set(HEADERS cl.hpp plan.hpp program.hpp text.hpp tilted_plane.hpp validate.hpp writers.hpp)

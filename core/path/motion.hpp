@@ -1,12 +1,20 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace ridgeline::path {
 
 enum class MoveKind { Rapid, Approach, LeadIn, Cut, LeadOut, Retract };
+/// "rapid", "approach", "lead_in", "cut", "lead_out", "retract".
+constexpr std::string_view name(MoveKind kind) {
+  constexpr std::array<std::string_view, 6> names{"rapid", "approach", "lead_in",
+                                                  "cut",   "lead_out", "retract"};
+  return names.at(static_cast<std::size_t>(kind));
+}
 enum class ArcSense { Clockwise, CounterClockwise };  ///< seen from the positive third axis
 enum class ArcPlane { XY, ZX, YZ };
 

@@ -2,29 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <limits>
 #include <sstream>
 
 #include "core/base/error.hpp"
 #include "core/nc/program.hpp"
+#include "tests/core/nc/golden.hpp"
 #include "tests/core/nc/samples.hpp"
 
 namespace ridgeline::nc {
 namespace {
-
-/// Text of a golden file; with RIDGELINE_WRITE_GOLDEN set it is written first
-/// (tests/golden/README.md).
-std::string golden(const std::string& name, const std::string& current) {
-  const std::string path = RIDGELINE_TESTS "/golden/" + name;
-  if (std::getenv("RIDGELINE_WRITE_GOLDEN") != nullptr) std::ofstream(path) << current;
-  std::ifstream file(path);
-  EXPECT_TRUE(file) << path << " cannot be read";
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 struct GoldenCase {
   std::string name;
