@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "core/macro/result.hpp"
+#include "core/macro/segment.hpp"
+
+namespace ridgeline::macro {
+
+/// Writes moves and events into a Result, in the order of motion.
+class Recorder {
+public:
+  Recorder(Result& result, std::size_t move_limit, double rapid_feed)
+      : result_(result), move_limit_(move_limit), rapid_feed_(rapid_feed) {}
+
+  void move(const Segment& segment);
+  void event(std::string word, int program, int line);
+  void axis(char axis, double to);
+  std::size_t moves() const { return result_.motion.size(); }
+  const Eigen::Vector3d& machine() const { return machine_; }
+  /// Sets where the machine is without a move.
+  void place(const Eigen::Vector3d& machine) { machine_ = machine; }
+
+private:
+  Result& result_;
+  std::size_t move_limit_;
+  double rapid_feed_;
+  Eigen::Vector3d machine_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace ridgeline::macro
