@@ -1,2 +1,2 @@
-set(SOURCES arc.cpp pieces.cpp)
-set(HEADERS arc.hpp motion.hpp pieces.hpp)
+set(SOURCES arc.cpp closed_curve.cpp equal_error.cpp pieces.cpp)
+set(HEADERS arc.hpp closed_curve.hpp equal_error.hpp motion.hpp pieces.hpp)

@@ -1,0 +1,113 @@
+#include "core/chamfer/loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "core/base/text.hpp"
+#include "core/path/closed_curve.hpp"
+#include "core/path/equal_error.hpp"
+
+namespace ridgeline::chamfer {
+namespace {
+
+// The pieces stand for the curve to this share of the tolerance; the bound of a chord has it added.
+constexpr double model_share = 1e-3;
+constexpr double least_tolerance = 1e-8;  // [mm]; below, solver noise would be sampled
+constexpr double same_parameter = 1e-12;
+
+double wrapped(double u) {
+  const double w = u - std::floor(u);
+  return w < 1 ? w : 0;
+}
+
+void require(const Sampling& sampling) {
+  if (!(sampling.tolerance >= least_tolerance && std::isfinite(sampling.tolerance))) {
+    throw Error(ErrorCode::BadInput,
+                "tolerance " + text(sampling.tolerance, "mm") + ", at least " +
+                    text(least_tolerance, "mm") + " is needed",
+                {.field = "/tolerance",
+                 .value = text(sampling.tolerance),
+                 .limit = text(least_tolerance, "mm")});
+  }
+  if (sampling.points && !(*sampling.points >= 3 && *sampling.points <= sampling.limit)) {
+    throw Error(ErrorCode::BadInput,
+                "points " + std::to_string(*sampling.points) + ", 3 to " +
+                    std::to_string(sampling.limit) + " are possible",
+                {.field = "/points",
+                 .value = std::to_string(*sampling.points),
+                 .limit = "3 to " + std::to_string(sampling.limit)});
+  }
+  if (!std::isfinite(sampling.start_u)) {
+    throw Error(ErrorCode::BadInput, "start of the loop is not a number",
+                {.field = "/start_angle"});
+  }
+}
+
+// Start, joints of the profile, start + 1: where the curvature of the path may jump.
+std::vector<double> breaks(const geometry::Edge& edge, double start) {
+  std::vector<double> out{start};
+  if (!edge.merged) {
+    for (const double joint : geometry::joints(edge.profile)) {
+      const double u = joint < start ? joint + 1 : joint;
+      if (u - start > same_parameter && start + 1 - u > same_parameter) out.push_back(u);
+    }
+  }
+  out.push_back(start + 1);
+  std::ranges::sort(out);
+  return out;
+}
+
+std::vector<double> equal_parameters(double start, int count) {
+  std::vector<double> u;
+  u.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) u.push_back(start + static_cast<double>(i) / count);
+  return u;
+}
+
+}  // namespace
+
+Loop loop(const geometry::Edge& edge, const Chamfer& chamfer, const Sampling& sampling,
+          const Progress& progress) {
+  require(sampling);
+  const auto at = [&](double u) {
+    return chamfer.method == Method::Swept ? swept_at(edge, chamfer, wrapped(u))
+                                           : section_at(edge, chamfer, wrapped(u));
+  };
+  const double start = wrapped(sampling.start_u);
+  const std::vector<double> ends = breaks(edge, start);
+  const path::ClosedCurve curve = path::model([&](double u) { return at(u).C; }, ends,
+                                              model_share * sampling.tolerance, progress);
+
+  Loop loop;
+  std::vector<double> u;
+  if (sampling.points) {
+    u = equal_parameters(start, *sampling.points);
+    loop.chord_error = path::chord_error(curve, u);
+    const double integral = path::curvature_table(curve).integral.back();
+    loop.points_optimal =
+        std::max(3, static_cast<int>(std::ceil(integral / std::sqrt(8 * sampling.tolerance))));
+  } else {
+    path::Chords chords =
+        path::equal_error_chords(curve, ends, sampling.tolerance, sampling.limit, progress);
+    u = std::move(chords.u);
+    loop.points_optimal = chords.optimal;
+    loop.chord_error = chords.chord_error;
+  }
+  if (sampling.reversed) std::reverse(u.begin() + 1, u.end());
+
+  loop.parameter.reserve(u.size());
+  loop.points.reserve(u.size());
+  for (const double parameter : u) {
+    if (loop.points.size() % 256 == 0) {
+      progress.at(static_cast<double>(loop.points.size()) / static_cast<double>(u.size()),
+                  "points");
+    }
+    loop.parameter.push_back(wrapped(parameter));
+    loop.points.push_back(at(parameter));
+  }
+  return loop;
+}
+
+}  // namespace ridgeline::chamfer
