@@ -50,19 +50,13 @@ public:
   explicit Weights(const IterateOptions& options) : options_(options) {}
 
   double w1() const { return options_.weights[used_]; }
-  bool is_spent() const { return spent_; }
 
-  /// Takes the residual of one loop; true when it changed the weight.
+  /// Takes the residual of one loop; true when it changed the weight. The last weight stays.
   bool changed_by(double A) {
-    if (!options_.adapt) return false;
-    const bool grows = A > options_.beta * least_;
+    const bool diverges = A > options_.beta * least_ || since_least_ >= options_.stall;
     since_least_ = A < least_ ? 0 : since_least_ + 1;
     least_ = std::min(least_, A);
-    if (!grows && since_least_ < options_.stall) return false;
-    if (used_ + 1 == options_.weights.size()) {
-      spent_ = true;
-      return false;
-    }
+    if (!options_.adapt || !diverges || used_ + 1 == options_.weights.size()) return false;
     ++used_;
     least_ = A;
     since_least_ = 0;
@@ -74,7 +68,6 @@ private:
   std::size_t used_ = 0;
   double least_ = std::numeric_limits<double>::infinity();
   int since_least_ = 0;
-  bool spent_ = false;
 };
 
 // kappa / tc, which must leave the tool its resonances: at 1.4 fn the error moves by 0.8 um, at 2
@@ -127,7 +120,7 @@ Prediction iterate(const Cut& cut, const Compliance& compliance, double S,
     if (!is_last && weights.changed_by(out.A.back())) {
       out.weight_changes.push_back({out.loops, weights.w1()});
     }
-    if (is_last || weights.is_spent()) {
+    if (is_last) {
       out.F = revolution.F;
       out.D = D4;
       break;

@@ -11,10 +11,10 @@ namespace ridgeline::cutting {
 struct IterateOptions {
   double alpha = 0.01;                       ///< converged when A < alpha sum |D4|^2 (2)
   double beta = 3;                           ///< diverges when A > beta min(earlier A)
-  int stall = 10;                            ///< or after so many loops without a new minimum
+  int stall = 10;                            ///< or when so many loops before gave no new minimum
   std::vector<double> weights{1, 3, 6, 10};  ///< w1 at the start and after each divergence
   bool adapt = true;                         ///< change weights at all
-  int max_loops = 150;
+  int max_loops = 300;
   std::optional<double> kappa;  ///< low-pass at kappa / tc; absent: none
   Span span = Span::Revolution;
 };
