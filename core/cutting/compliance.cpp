@@ -88,6 +88,14 @@ std::vector<double> natural_frequencies(const Compliance& compliance) {
   return found;
 }
 
+const Modes& modes_of(const Direction& direction) {
+  const auto* modes = std::get_if<Modes>(&direction);
+  if (modes != nullptr) return *modes;
+  throw Error(ErrorCode::Unsupported,
+              "frf: a measured frequency response has no equation of motion, which the time domain "
+              "and the stability test need; give modes fitted to it");
+}
+
 void validate(const Compliance& compliance) {
   validate(compliance.x, "x");
   validate(compliance.y, "y");

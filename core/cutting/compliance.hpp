@@ -38,6 +38,10 @@ std::complex<double> compliance_at(const Direction& direction, double frequency)
 /// Natural frequencies of both directions [Hz]: modes, or the peaks of a measurement.
 std::vector<double> natural_frequencies(const Compliance& compliance);
 
+/// The modes of a direction; throws Error{Unsupported} for a measurement: it has no equation of
+/// motion.
+const Modes& modes_of(const Direction& direction);
+
 /// Throws Error{BadInput}.
 void validate(const Compliance& compliance);
 
