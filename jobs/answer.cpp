@@ -19,7 +19,10 @@ struct Kind {
 };
 
 /// Every kind of job. A new one is one line here and one function in kinds.hpp.
-constexpr std::array<Kind, 0> kinds{};
+constexpr std::array<std::string_view, 4> predict_formats{"json", "csv", "svg", "nc"};
+constexpr std::array kinds{
+    Kind{"predict", predict, predict_formats},
+};
 
 const Kind& kind_of(const nlohmann::json& document) {
   const Value value = Object(Value(document)).required("job");

@@ -21,4 +21,6 @@ struct Request {
 // object) and returns the result with its bulk numbers as arrays. A new kind is one declaration
 // here, one line in the table of answer.cpp and one in CMakeLists.txt.
 
+Answer predict(const Request& request);
+
 }  // namespace ridgeline::jobs

@@ -87,7 +87,8 @@ double checked_cutoff(double kappa, double tc, const Compliance& compliance) {
 }  // namespace
 
 Prediction iterate(const Cut& cut, const Compliance& compliance, double S,
-                   const IterateOptions& options, const Deflections& start) {
+                   const IterateOptions& options, const Deflections& start,
+                   const Progress& progress) {
   const int z = options.span == Span::Pitch ? teeth(cut.cutter) : 1;
   const int samples = cut.samples / z;
   const Response response(compliance, samples, S * z);
@@ -101,6 +102,7 @@ Prediction iterate(const Cut& cut, const Compliance& compliance, double S,
   Prediction out;
   double cutoff = std::numeric_limits<double>::infinity();
   while (true) {
+    progress.at(static_cast<double>(out.loops) / options.max_loops, "iteration");
     const Revolution revolution = revolution_force(table, D1, options.span);
     if (out.loops++ == 0) {
       out.contact_time = revolution.cut_steps / (cut.samples * S);

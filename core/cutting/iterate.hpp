@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/progress.hpp"
 #include "core/cutting/force.hpp"
 
 namespace ridgeline::cutting {
@@ -47,7 +48,8 @@ struct Prediction {
 /// or empty; loop 1 from nothing is the rigid method. Throws Error{BadInput} when the low-pass
 /// would cut the tool's own resonance.
 Prediction iterate(const Cut& cut, const Compliance& compliance, double S,
-                   const IterateOptions& options, const Deflections& start = {});
+                   const IterateOptions& options, const Deflections& start = {},
+                   const Progress& progress = {});
 
 /// The rigid method: one loop from no deflection.
 Prediction rigid(const Cut& cut, const Compliance& compliance, double S, Span span);

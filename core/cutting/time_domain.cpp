@@ -65,9 +65,13 @@ public:
     search(cut, first_reach);
   }
 
-  TimeDomain revolution() {
+  /// `at(turned)` is called now and then with the part of the revolution done.
+  template <typename At>
+  TimeDomain revolution(const At& at) {
+    constexpr int often = 256;
     TimeDomain out;
     for (int i = 0; i < table_.cut.samples; ++i) {
+      if (i % often == 0) at(static_cast<double>(i) / table_.cut.samples);
       step(i);
       out.D.emplace_back(x_.displacement(), y_.displacement());
       out.F.push_back(F_);
@@ -152,13 +156,15 @@ std::size_t tooth_period(const Cut& cut) {
 }  // namespace
 
 TimeDomain time_domain(const Cut& cut, const Compliance& compliance, double S,
-                       const TimeOptions& options) {
+                       const TimeOptions& options, const Progress& progress) {
   Run run(cut, compliance, S);
   const auto N = static_cast<std::size_t>(cut.samples);
   TimeDomain out;
   Deflections latest;  // up to three revolutions
   while (out.revolutions < options.max_revolutions && !out.converged) {
-    TimeDomain next = run.revolution();
+    TimeDomain next = run.revolution([&](double turned) {
+      progress.at((out.revolutions + turned) / options.max_revolutions, "time domain");
+    });
     if (latest.size() == 3 * N) latest.erase(latest.begin(), latest.begin() + cut.samples);
     latest.insert(latest.end(), next.D.begin(), next.D.end());
     next.change = std::move(out.change);
@@ -178,12 +184,13 @@ Stability stability_of(const TimeDomain& run) {
   return run.flip_change < none ? Stability::Flip : Stability::Unstable;
 }
 
-Stability stability(const Cut& cut, const Compliance& compliance, double S) {
+Stability stability(const Cut& cut, const Compliance& compliance, double S,
+                    const Progress& progress) {
   Cut real = cut;
   real.earlier_teeth = std::max(cut.earlier_teeth, 3);
   constexpr TimeOptions long_enough{.max_revolutions = 120};
   try {
-    return stability_of(time_domain(real, compliance, S, long_enough));
+    return stability_of(time_domain(real, compliance, S, long_enough, progress));
   } catch (const Error& error) {
     if (error.code() == ErrorCode::NotConverged) return Stability::Unstable;
     throw;

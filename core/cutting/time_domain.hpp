@@ -30,7 +30,7 @@ struct TimeDomain {
 /// deflection. Throws Error{Unsupported} for a measured response, which has no equation of motion,
 /// and Error{NotConverged} when the vibration outgrows the tool.
 TimeDomain time_domain(const Cut& cut, const Compliance& compliance, double S,
-                       const TimeOptions& options);
+                       const TimeOptions& options, const Progress& progress = {});
 
 /// What the end of a run shows: a change under 3 % rms counts as none. The tooth period of a cutter
 /// with unlike teeth is the revolution.
@@ -39,6 +39,7 @@ Stability stability_of(const TimeDomain& run);
 /// Runs the time domain with three earlier teeth, which is what a tool that chatters really meets,
 /// and tells what it settles to. The iteration cannot: its fixed point exists where the cut is
 /// unstable (design: section 4).
-Stability stability(const Cut& cut, const Compliance& compliance, double S);
+Stability stability(const Cut& cut, const Compliance& compliance, double S,
+                    const Progress& progress = {});
 
 }  // namespace ridgeline::cutting

@@ -1,0 +1,167 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "jobs/answer.hpp"
+
+namespace ridgeline::jobs {
+namespace {
+
+using Json = nlohmann::json;
+
+Json file(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  return Json::parse(in);
+}
+
+Json run(const Json& job, std::string_view format = "json") {
+  return assemble(answer(job.dump(), format, NoDefinitions()));
+}
+
+// The job of an oracle file: its own keys under "job": "predict".
+Json job_of(const Json& oracle) {
+  Json job = {{"job", "predict"}, {"stability", "none"}};
+  for (const char* key : {"case", "speed_rpm", "options", "warm_from"})
+    if (oracle.contains(key)) job[key] = oracle[key];
+  return job;
+}
+
+Json oracle_job() {
+  return job_of(file(RIDGELINE_TESTS "/oracle/error/01-ball-down-milling-1-groove.json"));
+}
+
+void expect_equal(double actual, const Json& expected) {
+  EXPECT_NEAR(actual, expected.get<double>(), 1e-9 * std::abs(expected.get<double>()));
+}
+
+void expect_rows(const Json& actual, const Json& expected, std::size_t every) {
+  ASSERT_EQ(actual.size(), expected.size() * every);
+  double greatest = 0;
+  for (const Json& row : expected)
+    for (const Json& value : row) greatest = std::max(greatest, std::abs(value.get<double>()));
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    for (std::size_t c = 0; c < expected[i].size(); ++c)
+      EXPECT_NEAR(actual[i * every][c].get<double>(), expected[i][c].get<double>(),
+                  1e-9 * greatest);
+}
+
+// The whole contract of interfaces.md, key for key, on every file of the oracle.
+TEST(PredictJob, AnswersTheOracleKeyForKey) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(RIDGELINE_TESTS "/oracle/error")) {
+    const Json oracle = file(entry.path());
+    if (!oracle.contains("iterate")) continue;
+    SCOPED_TRACE(entry.path().filename().string());
+    ++files;
+    const Json result = run(job_of(oracle));
+    const Json& expected = oracle["iterate"];
+    ASSERT_EQ(result["status"], "ok") << result.dump();
+    EXPECT_EQ(result["job"], "predict");
+    EXPECT_EQ(result["method"], "iterate");
+    expect_equal(result["e_mm"], expected["e_mm"]);
+    for (const char* key : {"loops", "converged", "w1_final", "weight_changes"})
+      EXPECT_EQ(result[key], expected[key]) << key;
+    ASSERT_EQ(result["A"].size(), expected["A"].size());
+    for (std::size_t i = 0; i < result["A"].size(); ++i) {
+      expect_equal(result["A"][i], expected["A"][i]);
+      expect_equal(result["e_hist"][i], expected["e_hist"][i]);
+    }
+    const auto every = oracle["sample_every"].get<std::size_t>();
+    expect_rows(result["F"], expected["F"], every);
+    expect_rows(result["D"], expected["D"], every);
+    EXPECT_TRUE(result["stability"].is_null());
+    EXPECT_GT(result["solve_seconds"].get<double>(), 0);
+  }
+  EXPECT_EQ(files, 6);
+}
+
+TEST(PredictJob, RigidAndTimeDomainAreChoices) {
+  const Json oracle = file(RIDGELINE_TESTS "/oracle/error/09-square-down-milling-helix-5.json");
+  Json job = job_of(oracle);
+  job["method"] = "rigid";
+  const Json rigid = run(job);
+  expect_equal(rigid["e_mm"], oracle["rigid"]["e_mm"]);
+  EXPECT_EQ(rigid["loops"], 1);
+  EXPECT_EQ(rigid["method"], "rigid");
+  job["method"] = "time_domain";
+  const Json stepped = run(job);
+  EXPECT_EQ(stepped["method"], "time_domain");
+  EXPECT_NEAR(stepped["e_mm"].get<double>(), 0.0053171297, 1e-9 * 5);
+  EXPECT_EQ(stepped["revolutions"], 12);
+}
+
+// Fixed weights do not converge here (case 05); asked to, the answer comes from the time domain.
+TEST(PredictJob, FallsBackToTheTimeDomainAndSaysSo) {
+  Json job =
+      job_of(file(RIDGELINE_TESTS "/oracle/error/05-same-fixed-weights-not-converging.json"));
+  job["options"]["fall_back"] = true;
+  const Json result = run(job);
+  EXPECT_EQ(result["method"], "time_domain");
+  EXPECT_EQ(result["fell_back"], true);
+  EXPECT_EQ(result["converged"], false);
+  EXPECT_EQ(result["loops"], 60);
+  EXPECT_NEAR(result["e_mm"].get<double>(), 0.012901207, 1e-8);
+}
+
+TEST(PredictJob, SweepsTheSpeedAndFlagsChatter) {
+  Json job = oracle_job();
+  job.erase("speed_rpm");
+  job.erase("stability");
+  job["case"]["N"] = 512;
+  job["speeds_rpm"] = {{"from", 7500}, {"to", 13700}, {"step", 6200}};
+  const Json result = run(job);
+  ASSERT_EQ(result["speed_rpm"], Json({7500, 13700}));
+  EXPECT_EQ(result["stability"], Json({"stable", "flip"}));
+  const Answer drawn = answer(job.dump(), "svg", NoDefinitions());
+  EXPECT_NE(drawn.text.find("<svg"), std::string::npos);
+}
+
+struct Refused {
+  const char* name;
+  const char* patch;  // JSON merge patch on the job
+  const char* code;
+  const char* field;
+};
+
+void PrintTo(const Refused& refused, std::ostream* out) {
+  *out << refused.name;
+}
+
+class PredictRefusal : public testing::TestWithParam<Refused> {};
+
+TEST_P(PredictRefusal, NamesTheField) {
+  Json job = oracle_job();
+  job.merge_patch(Json::parse(GetParam().patch));
+  const Json result = run(job);
+  ASSERT_EQ(result["status"], "error") << result.dump();
+  EXPECT_EQ(result["error"]["code"], GetParam().code) << result.dump();
+  EXPECT_EQ(result["error"]["field"], GetParam().field) << result.dump();
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, PredictRefusal,
+    testing::Values(
+        Refused{"NoCase", R"({"case": null})", "bad_input", "/case"},
+        Refused{"UnknownKey", R"({"case": {"speed": 1}})", "bad_input", "/case/speed"},
+        Refused{"NoTeeth", R"({"case": {"tool": {"z": 0}}})", "bad_input", "/case/tool/z"},
+        Refused{"NegativeFeed", R"({"case": {"feed_per_tooth": -0.1}})", "bad_input",
+                "/case/feed_per_tooth"},
+        Refused{"PitchThatDoesNotClose", R"({"case": {"tool": {"pitch_deg": [170, 180]}}})",
+                "bad_input", "/case/tool/pitch_deg"},
+        Refused{"RunoutOfOneTooth", R"({"case": {"tool": {"runout_mm": [0.01]}}})", "bad_input",
+                "/case/tool/runout_mm"},
+        Refused{"TooManyPlaces", R"({"case": {"N": 65536, "tool": {"nq": 4096}}})", "bad_input",
+                "/case/N"},
+        Refused{"StockWithoutDepth", R"({"case": {"engagement": {"c": null}}})", "bad_input",
+                "/case/engagement/c"},
+        Refused{"NoModes", R"({"case": {"modes_x": null}})", "bad_input", "/case/modes_x"},
+        Refused{"UndampedMode", R"({"case": {"modes_x": [[1000, 0, 2000]]}})", "bad_input",
+                "/case/modes_x/0/1"},
+        Refused{"LowPassThroughTheResonance", R"({"options": {"kappa": 0.5}})", "bad_input",
+                "/options/kappa"},
+        Refused{"NoSpeed", R"({"speed_rpm": null})", "bad_input", "/speed_rpm"}),
+    [](const auto& refused) { return refused.param.name; });
+
+}  // namespace
+}  // namespace ridgeline::jobs
