@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/base/angle.hpp"
+#include "core/base/tolerance.hpp"
 #include "jobs/limits.hpp"
 
 namespace ridgeline::jobs {
@@ -37,8 +38,7 @@ constexpr Choices<SpindleSense, 2> spindle_senses{{
     {"ccw", SpindleSense::CounterClockwise},
 }};
 
-constexpr double max_penetration_angle = 80;     // design: chamfer.md section 1
-constexpr double eccentricity_tolerance = 1e-6;  // mm; the same page
+constexpr double max_penetration_angle = 80;  // design: chamfer.md section 1
 
 /// An inline object may carry its kind, a library definition must: it has to be `kind`.
 void check_kind(Object& object, std::string_view kind) {
@@ -78,30 +78,37 @@ Eigen::Vector3d read_hole_axis(Object& object, const Workpiece& body) {
   return Z;
 }
 
+/// Runs a check of the core on a hole: what it says of "/axis" is said of the hole's.
+template <class Check>
+auto at_hole(const Object& object, Check&& check) {
+  try {
+    return check();
+  } catch (const Error& error) {
+    ErrorDetails details = error.details();
+    details.field = object.pointer() + details.field;
+    throw Error(error.code(), error.what(), details);
+  }
+}
+
 /// The position of a hole: where given, else at the eccentric distance from A1, else the
-/// workpiece's. A1 passes x' = -f of A2, so A2 stands at f * x' from A1; x' = A1 x A2 [E 2..4].
+/// workpiece's. Given both, they must agree.
 void read_hole_place(Object& object, const Workpiece& body, Hole& hole) {
   const std::optional<Value> position = object.optional("position");
   hole.position = position ? position->vector3(coordinate_range) : body.position;
   hole.eccentric_distance = object.optional_number("eccentric_distance", coordinate_range);
+  const double f_of_positions =
+      at_hole(object, [&] { return geometry::eccentric_distance(body, hole); });
   if (!hole.eccentric_distance) return;
-  const Eigen::Vector3d x = body.axis.cross(hole.axis);
-  constexpr double parallel = 1e-9;
-  if (!(x.norm() > parallel))
-    object.refuse("eccentric_distance", "absent where the hole's axis is parallel to the bore");
   const double f = *hole.eccentric_distance;
   if (!position) {
-    hole.position += f * x.normalized();
+    hole.position = geometry::position_of(body, hole.axis, f);
     return;
   }
-  const double f_of_positions = (hole.position - body.position).dot(x.normalized());
-  if (!(std::abs(f - f_of_positions) <= eccentricity_tolerance)) {
-    const std::string limit = text(f_of_positions) + " mm within 1e-6 mm, as the positions give it";
+  if (!(std::abs(f - f_of_positions) <= eccentricity_tolerance))
     refuse({.code = ErrorCode::InconsistentEccentricity,
             .field = object.pointer() + "/eccentric_distance",
             .value = text(f),
-            .limit = limit});
-  }
+            .limit = text(f_of_positions) + " mm within 1e-6 mm, as the positions give it"});
 }
 
 Eigen::Vector3d read_body_axis(Object& object) {

@@ -1,9 +1,7 @@
 #include "jobs/text.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <charconv>
 #include <numeric>
 #include <utility>
 
@@ -51,12 +49,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
-
-std::string text(double number) {
-  std::array<char, 32> buffer{};
-  const std::to_chars_result written = std::to_chars(buffer.begin(), buffer.end(), number);
-  return {buffer.begin(), written.ptr};
-}
 
 bool is_valid_utf8(std::string_view text) {
   while (!text.empty()) {

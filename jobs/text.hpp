@@ -5,11 +5,11 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/text.hpp"
+
 namespace ridgeline::jobs {
 
-/// Shortest text that reads back as the same double, e.g. "0.1".
-std::string text(double number);
-
+using ridgeline::text;  // of a number
 /// The text with every byte that is not valid UTF-8 replaced by U+FFFD.
 std::string valid_utf8(std::string_view text);
 

@@ -2,26 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
-#include <cmath>
-#include <cstdint>
-#include <cstdlib>
-#include <random>
-
 namespace ridgeline::jobs {
 namespace {
-
-TEST(Text, NumbersReadBackTheSame) {
-  std::mt19937_64 random(7);
-  int checked = 0;
-  while (checked < 100'000) {
-    const double number = std::bit_cast<double>(random());
-    if (!std::isfinite(number)) continue;
-    ASSERT_EQ(std::strtod(text(number).c_str(), nullptr), number) << text(number);
-    ++checked;
-  }
-  EXPECT_EQ(text(0.1), "0.1");
-}
 
 // The forms that RFC 3629 names as invalid, each beside the nearest valid one.
 TEST(Text, InvalidUtf8IsReplacedByteByByte) {

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+#include "clients/ridgeline/outcome.hpp"
+#include "clients/ridgeline/session.hpp"
+
+namespace ridgeline::client {
+
+/// What the command line asked for, set by the command that was parsed.
+struct Selected {
+  std::function<Outcome(const Session&)> run;
+  std::string output;  ///< -o; empty: standard output
+};
+
+/// chamfer, verify, ...: commands that send one job and print its answer.
+void add_job_commands(CLI::App& app, Selected& selected);
+/// library put, get, list, ...
+void add_library_commands(CLI::App& app, Selected& selected);
+
+/// Reads a file that is to hold one JSON document. Throws Error{BadFile} or Error{BadInput}.
+nlohmann::json read_document(const std::string& path);
+
+}  // namespace ridgeline::client

@@ -1,0 +1,98 @@
+#include <memory>
+#include <vector>
+
+#include "clients/ridgeline/commands.hpp"
+#include "clients/ridgeline/files.hpp"
+#include "jobs/parse.hpp"
+
+namespace ridgeline::client {
+namespace {
+
+/// A command that sends a job file as it is.
+struct JobCommand {
+  const char* name;
+  const char* summary;
+  std::vector<std::string> formats;
+  const char* footer;
+};
+
+/// What the parsed arguments of a command are kept in until it runs.
+struct Arguments {
+  std::string job;
+  std::string program;
+  std::string format = "json";
+};
+
+void add_output(CLI::App& command, Selected& selected) {
+  command
+      .add_option("-o,--output", selected.output, "File for the result (default: standard output)")
+      ->type_name("FILE");
+}
+
+Outcome run_file(const Session& session, const Arguments& arguments) {
+  const std::string text = read_file(arguments.job);
+  jobs::parse(text);  // what is not JSON is an unusable file, not a refused job
+  return outcome_of(session.ask(text, arguments.format), arguments.format);
+}
+
+void add_job_command(CLI::App& app, Selected& selected, const JobCommand& job) {
+  CLI::App* command = app.add_subcommand(job.name, job.summary);
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("JOB", arguments->job, "Job file (JSON), or - for standard input")
+      ->required();
+  command->add_option("--format", arguments->format, "What to print")
+      ->check(CLI::IsMember(job.formats))
+      ->capture_default_str();
+  add_output(*command, selected);
+  command->footer(job.footer);
+  command->callback([&selected, arguments] {
+    selected.run = [arguments](const Session& session) { return run_file(session, *arguments); };
+  });
+}
+
+Outcome run_verify(const Session& session, const Arguments& arguments) {
+  const nlohmann::json job = {{"job", "verify"},
+                              {"program", read_file(arguments.program)},
+                              {"against", read_document(arguments.job)}};
+  const std::string text = job.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return outcome_of(session.ask(text, "json"), "json");
+}
+
+void add_verify(CLI::App& app, Selected& selected) {
+  CLI::App* command =
+      app.add_subcommand("verify", "Measure an NC program against a chamfer job, whoever wrote it");
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("PROGRAM", arguments->program, "NC program, or - for standard input")
+      ->required();
+  command->add_option("--job", arguments->job, "Chamfer job that the program is to keep")
+      ->required()
+      ->type_name("JOB.json");
+  add_output(*command, selected);
+  command->footer(
+      "Measures the width of the chamfer all round, the deepest cut beside it, and the clearance "
+      "of\n"
+      "neck, shank, holder and rapids. Exit status 4 when the program does not keep the job.");
+  command->callback([&selected, arguments] {
+    selected.run = [arguments](const Session& session) { return run_verify(session, *arguments); };
+  });
+}
+
+}  // namespace
+
+nlohmann::json read_document(const std::string& path) {
+  return jobs::parse(read_file(path));
+}
+
+void add_job_commands(CLI::App& app, Selected& selected) {
+  add_job_command(
+      app, selected,
+      {"chamfer",
+       "Compute the path that chamfers the edge of a hole",
+       {"json", "nc", "cl", "csv", "svg"},
+       "Formats: json (path, report), nc (program for the control that the job names), cl (APT CL\n"
+       "data), csv (one line a point), svg (drawing).\n"
+       "Example: ridgeline chamfer job.json --format nc -o O9101.nc"});
+  add_verify(app, selected);
+}
+
+}  // namespace ridgeline::client

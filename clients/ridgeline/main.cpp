@@ -1,0 +1,92 @@
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <csignal>
+#include <memory>
+
+#include "clients/ridgeline/commands.hpp"
+#include "clients/ridgeline/files.hpp"
+
+namespace ridgeline::client {
+namespace {
+
+void add_options(CLI::App& app, Options& options) {
+  CLI::Option* local =
+      app.add_flag("--local", options.local, "Compute here instead of asking the service");
+  app.add_option("--library", options.library, "Library file that --local uses")
+      ->type_name("FILE")
+      ->needs(local);
+  app.add_option("--domain", options.domain, "DDS domain of the service")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str();
+  app.add_option("--timeout", options.timeout, "Seconds to wait for the answer")
+      ->check(CLI::Range(0.001, 1e6));
+  app.add_flag("--quiet,-q", options.quiet, "No progress and no messages on standard error");
+}
+
+/// Nothing but results goes to standard output.
+void set_up_diagnostics(const Options& options) {
+  const auto logger = std::make_shared<spdlog::logger>(
+      "ridgeline", std::make_shared<spdlog::sinks::stderr_sink_st>());
+  logger->set_pattern("ridgeline: %v");
+  if (options.quiet) logger->set_level(spdlog::level::off);
+  spdlog::set_default_logger(logger);
+}
+
+Outcome run(const Selected& selected, const Session& session) {
+  try {
+    return selected.run(session);
+  } catch (const Error& error) {
+    return unusable(error);
+  }
+}
+
+/// Writes the outcome: a result where it was asked for, anything else to standard output.
+ExitStatus deliver(const Outcome& outcome, const std::string& output) {
+  try {
+    const bool is_result =
+        outcome.status == ExitStatus::Done || outcome.status == ExitStatus::VerificationFailed;
+    if (!outcome.diagnostic.empty()) spdlog::error("{}", outcome.diagnostic);
+    write_file(is_result ? output : "", outcome.text);
+    return outcome.status;
+  } catch (const Error& error) {
+    spdlog::error("{}", error.what());
+    return ExitStatus::Usage;
+  }
+}
+
+int run(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is a write error, told as one
+  const Interrupt interrupt;
+  Options options;
+  Selected selected;
+  CLI::App app{"Tool paths that chamfer and deburr the edges of cross holes", "ridgeline"};
+  app.set_version_flag("--version", "ridgeline " RIDGELINE_VERSION);
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.footer(
+      "Lengths in mm, angles in degrees, feeds in mm/min, speeds in rev/min. The result alone goes "
+      "to\n"
+      "standard output. Exit status: 0 done, 1 refused (the reason is printed as JSON), 2 wrong "
+      "usage\n"
+      "or unreadable file, 3 no service or no answer in time, 4 verification failed, 130 "
+      "interrupted.");
+  add_options(app, options);
+  add_job_commands(app, selected);
+  add_library_commands(app, selected);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return static_cast<int>(app.exit(error) == 0 ? ExitStatus::Done : ExitStatus::Usage);
+  }
+  set_up_diagnostics(options);
+  const Session session(options, interrupt);
+  return static_cast<int>(deliver(run(selected, session), selected.output));
+}
+
+}  // namespace
+}  // namespace ridgeline::client
+
+int main(int argc, char** argv) {
+  return ridgeline::client::run(argc, argv);
+}
