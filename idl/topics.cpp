@@ -41,7 +41,33 @@ Kind kind(Topic topic) {
   throw Failure("topic", DDS_RETCODE_BAD_PARAMETER);
 }
 
+/// The ends that an entity is matched with, by the two functions of the C API for its kind.
+template <class List, class Look>
+std::vector<dds_guid_t> matched(dds_entity_t entity, List list, Look look) {
+  std::vector<dds_instance_handle_t> handles(16);
+  for (;;) {
+    const dds_return_t count = check(list(entity, handles.data(), handles.size()), "matched");
+    const bool is_all = static_cast<std::size_t>(count) <= handles.size();
+    handles.resize(static_cast<std::size_t>(count));
+    if (is_all) break;
+  }
+  std::vector<dds_guid_t> participants;
+  for (const dds_instance_handle_t handle : handles) {
+    const Endpoint endpoint(look(entity, handle));
+    if (endpoint) participants.push_back(endpoint->participant_key);  // otherwise just gone
+  }
+  return participants;
+}
+
 }  // namespace
+
+std::vector<dds_guid_t> matched_readers(const Entity& writer) {
+  return matched(writer.get(), dds_get_matched_subscriptions, dds_get_matched_subscription_data);
+}
+
+std::vector<dds_guid_t> matched_writers(const Entity& reader) {
+  return matched(reader.get(), dds_get_matched_publications, dds_get_matched_publication_data);
+}
 
 Qos qos(Topic topic) {
   Qos qos(dds_create_qos());

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "idl/dds.hpp"
 #include "ridgeline.h"
@@ -26,6 +27,10 @@ std::string client_partition(std::string_view client);
 /// Names of instances and clients: 1 to 64 of letters, digits, '_', '-' and '.', as they become
 /// partitions, where other characters are patterns.
 bool is_name(std::string_view name);
+
+/// GUIDs of the participants whose readers a writer reaches now, and the other way round.
+std::vector<dds_guid_t> matched_readers(const Entity& writer);
+std::vector<dds_guid_t> matched_writers(const Entity& reader);
 
 /// How long a silent instance counts as alive.
 inline constexpr std::chrono::milliseconds lease{1000};

@@ -63,4 +63,10 @@ Answer answer(std::string_view job, std::string_view format, const Definitions& 
   }
 }
 
+std::vector<std::string> job_names() {
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds) names.emplace_back(kind.name);
+  return names;
+}
+
 }  // namespace ridgeline::jobs

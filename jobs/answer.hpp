@@ -72,6 +72,9 @@ Answer refusal(const Error& error);
 Answer answer(std::string_view job, std::string_view format, const Definitions& definitions,
               const Progress& progress = {}) noexcept;
 
+/// The kinds of job that answer() knows, for an instance to announce.
+std::vector<std::string> job_names();
+
 /// The whole result document, arrays in their places.
 nlohmann::json assemble(const Answer& answer);
 

@@ -193,14 +193,6 @@ jobs::Answer answer_library(const Json& document, Library& library,
   }
 }
 
-bool is_change(const Json& document) {
-  if (!document.is_object()) return false;
-  const auto operation = document.find("operation");
-  if (operation == document.end() || !operation->is_string()) return false;
-  const auto& name = operation->get_ref<const std::string&>();
-  return name == "put" || name == "remove" || name == "import";
-}
-
 std::string time_text(std::int64_t nanoseconds) {
   const std::int64_t milliseconds = nanoseconds / 1'000'000;
   const std::time_t seconds = milliseconds / 1000;

@@ -15,9 +15,6 @@ namespace ridgeline::service {
 jobs::Answer answer_library(const nlohmann::json& document, Library& library,
                             std::string_view request = {}) noexcept;
 
-/// Does the operation of a library job change the library?
-bool is_change(const nlohmann::json& document);
-
 /// Nanoseconds since 1970 as ISO 8601 in UTC with milliseconds.
 std::string time_text(std::int64_t nanoseconds);
 

@@ -1,0 +1,152 @@
+#include <pthread.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <iostream>
+#include <thread>
+
+#include "service/log.hpp"
+#include "service/server.hpp"
+
+namespace {
+
+using namespace ridgeline;
+
+struct Options {
+  std::string library;
+  std::string log_level = "info";
+  bool is_check = false;
+  service::ServerOptions server;
+};
+
+std::string default_instance() {
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  std::string name = std::string(host.data()).substr(0, 50) + '-' + std::to_string(getpid());
+  for (char& c : name)
+    if (!dds::is_name(std::string_view(&c, 1))) c = '-';
+  return name;
+}
+
+void declare(CLI::App& app, Options& options) {
+  app.add_option("--library", options.library,
+                 "File of the named workpieces, tools, ... (default: " +
+                     service::default_library_file().string() + ")");
+  app.add_option("--instance", options.server.instance,
+                 "Name of this instance on the network (default: host name and process)")
+      ->check([](const std::string& name) {
+        return dds::is_name(name) ? std::string()
+                                  : "must be 1 to 64 of letters, digits, '_', '-', '.'";
+      });
+  app.add_option("--domain", options.server.domain, "DDS domain (default 0)")
+      ->check(CLI::Range(0U, dds::max_domain));
+  app.add_option("--workers", options.server.limits.workers,
+                 "Jobs that are computed at once (default: one for each processor)")
+      ->check(CLI::Range(1U, 1024U));
+  app.add_option("--queue", options.server.limits.queue,
+                 "Requests that may wait before more are refused (default 256)")
+      ->check(CLI::Range(1U, 1'000'000U));
+  app.add_option("--log-level", options.log_level, "debug, info, warning, error or off")
+      ->check(CLI::IsMember({"debug", "info", "warning", "error", "off"}));
+  app.add_flag("--check", options.is_check,
+               "Check the library and the DDS configuration, say what is wrong, and exit");
+  app.footer(
+      "DDS is configured by the file that CYCLONEDDS_URI names; without it this machine's\n"
+      "loopback alone is used. SIGTERM ends it after what is being computed; a second one\n"
+      "cancels that too.");
+}
+
+int check(const Options& options) {
+  int status = EXIT_SUCCESS;
+  const auto report = [&](const char* what, auto&& look) {
+    try {
+      const std::string found = look();
+      std::cout << what << ": " << found << '\n';
+    } catch (const std::exception& error) {
+      std::cout << what << ": FAILED: " << error.what() << '\n';
+      status = EXIT_FAILURE;
+    }
+  };
+  report("library", [&] {
+    const service::Library library(options.library);
+    if (!library.damage().empty()) throw Error(ErrorCode::Storage, library.damage());
+    return library.file() + ", " + std::to_string(library.list().size()) + " definitions";
+  });
+  report("dds", [&] {
+    const auto domain = dds::Domain::open(options.server.domain);
+    const dds::Entity participant = domain->participant();
+    const char* uri = std::getenv("CYCLONEDDS_URI");
+    return "domain " + std::to_string(domain->id()) + ", " +
+           (dds::uses_loopback() ? std::string("built-in loopback configuration") : uri);
+  });
+  return status;
+}
+
+int serve(const Options& options) {
+  service::Library library(options.library, options.server.instance);
+  if (!library.damage().empty())
+    service::log::event(service::log::Level::Error, "library_damaged",
+                        {{"message", library.damage()}});
+  service::Server server(options.server, library);
+  service::log::event(service::log::Level::Info, "started",
+                      {{"instance", options.server.instance},
+                       {"domain", options.server.domain},
+                       {"library", library.file()},
+                       {"workers", options.server.limits.workers},
+                       {"pid", getpid()},
+                       {"version", RIDGELINE_VERSION}});
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int each : {SIGINT, SIGTERM, SIGUSR1}) sigaddset(&signals, each);
+  std::thread waiter([&] {
+    for (int received = 0; sigwait(&signals, &received) == 0 && received != SIGUSR1;) server.stop();
+  });
+  const auto end_waiter = [&] {
+    pthread_kill(waiter.native_handle(), SIGUSR1);
+    waiter.join();
+  };
+  try {
+    server.run();
+  } catch (...) {
+    end_waiter();
+    throw;
+  }
+  end_waiter();
+  service::log::event(service::log::Level::Info, "stopped",
+                      {{"instance", options.server.instance}});
+  return EXIT_SUCCESS;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  options.server.instance = default_instance();
+  options.server.limits.workers = std::max(2U, std::thread::hardware_concurrency());
+  options.library = service::default_library_file().string();
+  CLI::App app("Ridgeline's service: computes chamfer paths and keeps the library, over DDS",
+               "ridgelined");
+  app.set_version_flag("--version", std::string("ridgelined ") + RIDGELINE_VERSION);
+  declare(app, options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? EXIT_SUCCESS : 2;
+  }
+  service::log::set_level(options.log_level);
+  std::signal(SIGPIPE, SIG_IGN);
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int each : {SIGINT, SIGTERM, SIGUSR1}) sigaddset(&set, each);
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);  // before any thread is started
+  try {
+    return options.is_check ? check(options) : serve(options);
+  } catch (const std::exception& error) {
+    service::log::event(service::log::Level::Error, "failed", {{"message", error.what()}});
+    return EXIT_FAILURE;
+  }
+}
