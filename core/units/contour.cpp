@@ -207,21 +207,6 @@ bool is_straight_on(const Segment& p, const Segment& q) {
   return u.z * v.z + u.r * v.r > 0 && across < merge_tolerance && middle < merge_tolerance;
 }
 
-Contour simplified(Contour contour) {
-  Contour merged;
-  for (const Segment& segment : contour) {
-    if (!merged.empty() && is_straight_on(merged.back(), segment))
-      merged.back().end = segment.end;
-    else
-      merged.push_back(segment);
-  }
-  while (merged.size() > 2 && is_straight_on(merged.back(), merged.front())) {
-    merged.front().start = merged.back().start;
-    merged.pop_back();
-  }
-  return merged;
-}
-
 }  // namespace
 
 double radius(const Segment& segment) {
@@ -268,6 +253,23 @@ Segment arc_segment(const Point& start, const Point& end, double radius, Sense s
   const Point centre{.r = (start.r + end.r) / 2 + side * h * uz,
                      .z = (start.z + end.z) / 2 - side * h * ur};
   return {start, end, Segment::Round{centre, radius, sense}};
+}
+
+std::vector<Segment> simplified(const std::vector<Segment>& segments) {
+  std::vector<Segment> merged;
+  for (const Segment& segment : segments) {
+    if (!merged.empty() && is_straight_on(merged.back(), segment))
+      merged.back().end = segment.end;
+    else
+      merged.push_back(segment);
+  }
+  if (segments.empty() || distance(segments.back().end, segments.front().start) > merge_tolerance)
+    return merged;
+  while (merged.size() > 2 && is_straight_on(merged.back(), merged.front())) {
+    merged.front().start = merged.back().start;
+    merged.pop_back();
+  }
+  return merged;
 }
 
 Segment segment_of(const Curve& curve, double z0, double z1) {
@@ -327,7 +329,7 @@ std::vector<Contour> contours(const Region& region) {
     }
     used[i] = 1;
     loop.back().end = loop.front().start;
-    loop = simplified(std::move(loop));
+    loop = simplified(loop);
     if (loop.size() >= 2) loops.push_back(std::move(loop));
   }
   return loops;

@@ -49,6 +49,9 @@ Region region_of(const Contour& contour);
 /// there are.
 std::vector<Contour> contours(const Region& region);
 
+/// Rows that go straight on as one row; a closed contour also over its end.
+std::vector<Segment> simplified(const std::vector<Segment>& segments);
+
 /// Curve between z0 and z1 as a segment, in the direction of z given by the order of the limits.
 Segment segment_of(const Curve& curve, double z0, double z1);
 
