@@ -7,7 +7,7 @@
 namespace ridgeline {
 namespace {
 
-constexpr std::array<std::pair<ErrorCode, std::string_view>, 26> names{{
+constexpr std::array<std::pair<ErrorCode, std::string_view>, 29> names{{
     {ErrorCode::BadInput, "bad_input"},
     {ErrorCode::UnknownWorkpiece, "unknown_workpiece"},
     {ErrorCode::UnknownHole, "unknown_hole"},
@@ -34,6 +34,9 @@ constexpr std::array<std::pair<ErrorCode, std::string_view>, 26> names{{
     {ErrorCode::VerificationFailed, "verification_failed"},
     {ErrorCode::UnknownMaterial, "unknown_material"},
     {ErrorCode::BadFile, "bad_file"},
+    {ErrorCode::NotTurned, "not_turned"},
+    {ErrorCode::SeveralSolids, "several_solids"},
+    {ErrorCode::AbsurdSize, "absurd_size"},
 }};
 
 }  // namespace

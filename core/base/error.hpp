@@ -37,6 +37,9 @@ enum class ErrorCode {
   VerificationFailed = 24,       ///< a measured path does not keep what the job asks
   UnknownMaterial = 25,          ///< no such material in the library
   BadFile = 26,                  ///< a file is not of the format that it should be
+  NotTurned = 27,                ///< a product is no turned part
+  SeveralSolids = 28,            ///< a file holds several parts and none of them stands out
+  AbsurdSize = 29,               ///< a part far larger or smaller than any machine: a wrong unit
 };
 
 /// Stable name on the wire and in JSON, e.g. "bad_input".
