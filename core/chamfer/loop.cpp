@@ -71,14 +71,25 @@ std::vector<double> equal_parameters(double start, int count) {
 Loop loop(const geometry::Edge& edge, const Chamfer& chamfer, const Sampling& sampling,
           const Progress& progress) {
   require(sampling);
+  const Section ready = section(edge, chamfer);
   const auto at = [&](double u) {
-    return chamfer.method == Method::Swept ? swept_at(edge, chamfer, wrapped(u))
-                                           : section_at(edge, chamfer, wrapped(u));
+    return chamfer.method == Method::Swept ? swept_at(ready, wrapped(u))
+                                           : section_at(ready, wrapped(u));
   };
   const double start = wrapped(sampling.start_u);
   const std::vector<double> ends = breaks(edge, start);
-  const path::ClosedCurve curve = path::model([&](double u) { return at(u).C; }, ends,
-                                              model_share * sampling.tolerance, progress);
+  const path::ClosedCurve curve = [&] {
+    try {
+      return path::model([&](double u) { return at(u).C; }, ends, model_share * sampling.tolerance,
+                         progress);
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::NotConverged) throw;
+      throw Error(
+          ErrorCode::SweptNotReached,
+          std::string("the ball does not fit into the bend of the chamfer: ") + error.what(),
+          {.field = "/tool", .value = text(chamfer.D, "mm"), .limit = "a smaller tool"});
+    }
+  }();
 
   Loop loop;
   std::vector<double> u;

@@ -93,6 +93,9 @@ Ends ends(const Plane& vp, const Wall& wall_at, double W, double sine, double co
 bool is_on_other_part(const geometry::Profile& profile, const Eigen::Vector2d& p,
                       const Eigen::Vector2d& q) {
   const Eigen::Vector2d half(profile.straight_across / 2, profile.straight_along / 2);
+  if (half.isZero(0)) return false;
+  // At a joint the curvature is of one side, and q may be on the other.
+  if (((p.cwiseAbs() - half).array().abs() < 1e-9 * profile.R2).any()) return true;
   const auto part = [&](const Eigen::Vector2d& x) -> Eigen::Vector2i {
     return ((x.array() > half.array()).cast<int>() - (x.array() < -half.array()).cast<int>())
         .matrix();

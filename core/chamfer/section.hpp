@@ -62,6 +62,7 @@ SectionPoint section_at(const geometry::Edge& edge, const Chamfer& chamfer, doub
 
 /// Swept method (design: section 5): the same borders, the centre that really cuts them. Throws
 /// Error{SweptNotReached} with u and P.
+SectionPoint swept_at(const Section& section, double u);
 SectionPoint swept_at(const geometry::Edge& edge, const Chamfer& chamfer, double u);
 
 }  // namespace ridgeline::chamfer

@@ -1,2 +1,2 @@
-set(SOURCES loop.cpp section.cpp section_angle.cpp)
-set(HEADERS job.hpp loop.hpp section.hpp section_angle.hpp)
+set(SOURCES border.cpp loop.cpp section.cpp section_angle.cpp swept.cpp)
+set(HEADERS border.hpp job.hpp loop.hpp section.hpp section_angle.hpp)

@@ -12,7 +12,7 @@
 namespace ridgeline::path {
 namespace {
 
-constexpr int rounds_limit = 60;  // each adds a chord or evens them out; 3 are usual
+constexpr int even_rounds = 4;  // 1 or 2 do for a smooth curve
 
 // Value at x of a piecewise linear function through (xs, ys), xs ascending.
 double interpolated(std::span<const double> xs, std::span<const double> ys, double x) {
@@ -57,31 +57,80 @@ void bound(const ClosedCurve& curve, double tolerance, Stretch& stretch, const P
   }
 }
 
-// Error grows with the square of a chord's length: equal steps of its root even it out.
-std::vector<double> evened(const Stretch& stretch) {
+// Error grows with the square of a chord's length: equal steps of its root even it out, and as many
+// chords are needed as the sum of the roots holds roots of the tolerance.
+std::vector<double> evened(const Stretch& stretch, double tolerance, int limit) {
   std::vector<double> measure{0};
   for (const double e : stretch.bound) measure.push_back(measure.back() + std::sqrt(e));
-  return equal_steps(stretch.u, measure, static_cast<int>(stretch.bound.size()));
+  const double needed = std::ceil(measure.back() / std::sqrt(tolerance) - 1e-9);
+  const int count = static_cast<int>(std::min<double>(needed, limit + 1.0));
+  return equal_steps(stretch.u, measure, std::max(count, static_cast<int>(stretch.bound.size())));
+}
+
+// The longest chord from a that keeps the tolerance, within a few percent of its error.
+double longest_chord(const ClosedCurve& curve, double a, double end, double guess,
+                     double tolerance) {
+  double kept = 0;
+  double step = std::min(guess, end - a);
+  double refused = 2 * (end - a);
+  for (int i = 0; i < 40; ++i) {
+    const double e = chord_bound(curve, a, a + step, tolerance);
+    if (e <= tolerance) {
+      kept = step;
+      if (e >= 0.97 * tolerance || step >= end - a || refused - kept < 0.01 * kept) break;
+    } else {
+      refused = step;
+      if (kept > 0 && refused - kept < 0.01 * kept) break;
+    }
+    const double ratio = e > 0 ? std::sqrt(tolerance / e) : 4;
+    // Before a bend narrower than the chord the error hardly falls with the length.
+    const double most = kept == 0 && i >= 3 ? 0.25 : 4.0;
+    double next = step * std::clamp(0.99 * ratio, 0.2, most);
+    if (!(next > kept && next < refused)) next = 0.5 * (kept + std::min(refused, end - a));
+    step = std::min(next, end - a);
+  }
+  return kept;
+}
+
+// Chords one after the other, each as long as it may be: the fewest where the curvature is too
+// uneven for equal steps.
+Stretch marched(const ClosedCurve& curve, double from, double to, double tolerance, int limit,
+                double guess, const Progress& progress) {
+  Stretch stretch{.u = {from}, .bound = {}};
+  while (stretch.u.back() < to && stretch.u.size() <= static_cast<std::size_t>(limit)) {
+    progress.at(0.5, "chords");
+    const double a = stretch.u.back();
+    const double step = longest_chord(curve, a, to, guess, tolerance);
+    if (!(step > 0)) break;
+    const double b = to - (a + step) < 1e-12 ? to : a + step;
+    stretch.u.push_back(b);
+    stretch.bound.push_back(chord_bound(curve, a, b, tolerance));
+    stretch.worst = std::max(stretch.worst, stretch.bound.back());
+    guess = step;
+  }
+  return stretch;
 }
 
 Stretch cut(const ClosedCurve& curve, std::span<const double> at, std::span<const double> integral,
             double tolerance, int least, int limit, const Progress& progress) {
   const double steps = (integral.back() - integral.front()) / std::sqrt(8 * tolerance);
-  int count = std::max(least, static_cast<int>(std::ceil(steps - 1e-9)));
-  Stretch best;
-  for (int round = 0; round < rounds_limit && count <= limit; ++round) {
-    Stretch stretch{.u = equal_steps(at, integral, count), .bound = {}};
+  const int count = std::max(least, static_cast<int>(std::ceil(steps - 1e-9)));
+  Stretch stretch{.u = equal_steps(at, integral, count), .bound = {}};
+  bound(curve, tolerance, stretch, progress);
+  for (int round = 0; round < even_rounds && stretch.worst > tolerance; ++round) {
+    stretch.u = evened(stretch, tolerance, limit);
     bound(curve, tolerance, stretch, progress);
-    for (int i = 0; i < 3 && stretch.worst > tolerance; ++i) {
-      Stretch next{.u = evened(stretch), .bound = {}};
-      bound(curve, tolerance, next, progress);
-      if (next.worst >= stretch.worst) break;
-      stretch = std::move(next);
-    }
-    if (stretch.worst <= tolerance) return stretch;
-    const double excess = std::sqrt(stretch.worst / tolerance) - 1;
-    count += std::max(1, static_cast<int>(count * std::min(0.5, 0.25 * excess)));
   }
+  const auto keeps = [&](const Stretch& s) {
+    return s.worst <= tolerance && s.u.size() <= static_cast<std::size_t>(limit) + 1 &&
+           s.u.back() == at.back();
+  };
+  if (keeps(stretch) && static_cast<int>(stretch.bound.size()) <= count + 1) return stretch;
+  const double guess = (at.back() - at.front()) / count;
+  Stretch march = marched(curve, at.front(), at.back(), tolerance, limit, guess, progress);
+  const bool is_march = keeps(march) && static_cast<int>(march.bound.size()) >= least;
+  if (is_march && (!keeps(stretch) || march.bound.size() < stretch.bound.size())) return march;
+  if (keeps(stretch)) return stretch;
   throw Error(ErrorCode::ToleranceTooSmall,
               "tolerance " + text(tolerance, "mm") + " needs more than the limit of " +
                   std::to_string(limit) + " points",

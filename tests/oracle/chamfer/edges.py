@@ -104,7 +104,10 @@ if __name__ == '__main__':
                 uu = u * E.perim()
                 P, G1, G2, C, e1, e2, dd = section(E, uu, mpf(W), mpf(D), d)
                 S, x = swept(E, uu, mpf(W), mpf(D), d)
-                if norm(S - C) > 0.3: raise ValueError('another root')
+                if E.m * E.F(G2) < 0 or E.s(G1) < 0: raise ValueError('leaves its surfaces')
+                for k in range(40):
+                    q = section(E, (u + mpf(k - 20) / 100) * E.perim(), mpf(W), mpf(D), d)
+                    if min(norm(S - q[1]), norm(S - q[2])) < D - mpf('1e-9'): raise ValueError('the ball does not fit')
                 n = lambda p: [nstr(c, 17) for c in p]
                 points.append({'u': float(u), 'P': n(P), 'G1': n(G1), 'G2': n(G2), 'section': n(C), 'swept': n(S)})
         except (ValueError, ZeroDivisionError) as e:

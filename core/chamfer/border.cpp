@@ -1,0 +1,82 @@
+#include "core/chamfer/border.hpp"
+
+#include <cmath>
+
+#include "core/chamfer/section_angle.hpp"
+
+namespace ridgeline::chamfer {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// d delta / du of each kind of section angle; theta_rate = d theta / du.
+double delta_rate(const SectionAngle& angle, double theta_rate, const Vector2d& p,
+                  const Vector2d& p_rate) {
+  if (std::holds_alternative<Bisector>(angle)) return -theta_rate / 2;
+  if (const auto* table = std::get_if<AngleTable>(&angle)) {
+    const double phi = std::atan2(p.y(), p.x());
+    const double phi_rate = (p.x() * p_rate.y() - p.y() * p_rate.x()) / p.squaredNorm();
+    return table_angle(*table, phi).slope * phi_rate;
+  }
+  return 0;
+}
+
+}  // namespace
+
+// With ' = d/du, profile p(u) of speed L = perimeter, normal n2' = kappa L t2, body F of Hessian Q:
+//   P'  = (p', z'),  n1.P' = 0                        (a)
+//   P'' = (p'', z''), n1.P'' + P'.Q P' = 0            (b)
+//   c = m n1.e1 = -cos(theta),  theta' = c'/sin(theta) (c)
+//   e2 = v/|v|, v = m n1 - c e1                       (d)
+//   G2 = P + S e1 + T e2,  s(G2) = 0                  (e)
+//   G1 = G2 + W d,         F(G1) = 0,  d = sin(delta) e1 - cos(delta) e2   (f)
+// S' and T' follow from the two linear equations that (e) and (f) differentiate to.
+BorderRates border_rates(const Section& section, const SectionPoint& point, double u) {
+  const geometry::RidgeLine& line = section.ridge;
+  const auto& [P, n1, n2, t, e1, e2, theta] = point.ridge;
+  const double m = line.m;
+  const double W = section.chamfer->W;
+  const geometry::ProfilePoint profile = geometry::profile_at(line.profile, u);
+  const double L = geometry::perimeter(line.profile);
+  const Vector2d p1 = L * profile.tangent;
+  const Vector2d p2 = -(L * L * profile.curvature) * profile.normal;
+
+  BorderRates rates;
+  rates.P = {p1.x(), p1.y(), -n1.head<2>().dot(p1) / n1.z()};  // (a)
+  const Vector3d QP1 = line.F.Q * rates.P;
+  rates.P2 = {p2.x(), p2.y(), -(rates.P.dot(QP1) + n1.head<2>().dot(p2)) / n1.z()};  // (b)
+
+  const Vector3d e1_rate(profile.curvature * p1.x(), profile.curvature * p1.y(), 0);
+  const double c = m * n1.dot(e1);
+  const double c_rate = m * (QP1.dot(e1) + n1.dot(e1_rate));
+  const double s = m * n1.dot(e2);                              // = sin(theta)
+  const Vector3d v_rate = m * QP1 - c_rate * e1 - c * e1_rate;  // (d)
+  const Vector3d e2_rate = (v_rate - v_rate.dot(e2) * e2) / s;
+
+  const double delta1 =
+      delta_rate(section.chamfer->section_angle, c_rate / s, profile.p, p1);  // (c)
+  const double sine = std::sin(point.delta);
+  const double cosine = std::cos(point.delta);
+  const Vector3d d_rate =
+      delta1 * (cosine * e1 + sine * e2) + sine * e1_rate - cosine * e2_rate;  // (f)
+
+  const Vector3d to_G2 = point.G2 - P;
+  const Vector3d A = rates.P + to_G2.dot(e1) * e1_rate + to_G2.dot(e2) * e2_rate;  // (e)
+  const Vector2d wall = geometry::signed_distance(line.profile, point.G2.head<2>()).gradient;
+  const Vector3d body = gradient(line.F, point.G1);
+  const double w1 = wall.dot(e1.head<2>());
+  const double w2 = wall.dot(e2.head<2>());
+  const double b1 = body.dot(e1);
+  const double b2 = body.dot(e2);
+  const double wA = -wall.dot(A.head<2>());
+  const double bA = -body.dot(A + W * d_rate);
+  const double determinant = w1 * b2 - w2 * b1;
+  const double S_rate = (wA * b2 - w2 * bA) / determinant;
+  const double T_rate = (w1 * bA - wA * b1) / determinant;
+  rates.G2 = A + S_rate * e1 + T_rate * e2;
+  rates.G1 = rates.G2 + W * d_rate;
+  return rates;
+}
+
+}  // namespace ridgeline::chamfer
