@@ -172,22 +172,23 @@ private:
     if (dialect_ == Dialect::LinuxCnc && offset() != 0) {
       blocks_.block("G43 H" + std::to_string(offset()));
     }
-    Words across;
-    across.add("G0");
-    for (std::size_t n = 0; n < 3; ++n) {
-      if (n != axis_) across.add(axis_word(n, plan_.start[n]));
-    }
-    blocks_.block(across.text());
-
-    Words along;
+    const std::string length = " H" + std::to_string(offset());
     const bool with_length = dialect_ == Dialect::Fanuc && offset() != 0;
-    if (with_length) {
+    if (with_length && follows_tool()) {
+      // The control needs the whole point to follow the tool from the first block on.
+      std::string point = "G0 G43.4";
+      for (std::size_t n = 0; n < 3; ++n) point += ' ' + axis_word(n, plan_.start[n]);
+      blocks_.block(point + length);
+    } else {
+      std::string across = "G0";
+      for (std::size_t n = 0; n < 3; ++n) {
+        if (n != axis_) across += ' ' + axis_word(n, plan_.start[n]);
+      }
+      blocks_.block(across);
       const bool from_below = !is_tilted(program_) && program_.tool_axis.minCoeff() < -0.5;
-      along.add(follows_tool() ? "G43.4" : from_below ? "G44" : "G43");
+      const std::string along = axis_word(axis_, plan_.start[axis_]);
+      blocks_.block(with_length ? (from_below ? "G44 " : "G43 ") + along + length : along);
     }
-    along.add(axis_word(axis_, plan_.start[axis_]));
-    if (with_length) along.add("H" + std::to_string(offset()));
-    blocks_.block(along.text());
     if (program_.coolant == Coolant::Flood) blocks_.block("M8");
     if (program_.coolant == Coolant::Mist) blocks_.block("M7");
     at_ = plan_.start;

@@ -144,18 +144,19 @@ private:
     const auto third = static_cast<std::size_t>(path::axes_of(step.arc->plane).third);
     const std::string sense = step.arc->sense == path::ArcSense::Clockwise ? " DR-" : " DR+";
     if (step.arc->polar) {
-      const std::string text = "CP IPA" +
-                               decimal(*step.arc->polar, turn_decimals, NumberStyle::Signed) +
-                               coordinate(third, step.to[third]) + sense;
+      std::string text = "CP IPA" + decimal(*step.arc->polar, turn_decimals, NumberStyle::Signed);
+      if (step.to[third] != at_[third]) text += coordinate(third, step.to[third]);
+      text += sense;
       off_grid_ = {true, true, true};
       off_grid_[third] = false;
       return text;
     }
     std::string text = "C";
     for (std::size_t n = 0; n < 3; ++n) {
-      if (n != third) text += coordinate(n, step.to[n]);
+      if (n == third) continue;
+      text += coordinate(n, step.to[n]);
+      off_grid_[n] = false;
     }
-    off_grid_ = {};
     return text + sense;
   }
 

@@ -79,12 +79,29 @@ private:
     step.to = grid(local(move.to), "move " + std::to_string(index_));
     step.feed = step.rapid ? 0 : feed(move.feed);
     step.end = real(step.to);
-    if (move.arc) set_arc(step, move);
+    if (move.arc) {
+      step_onto_grid(step, *move.arc);
+      set_arc(step, move);
+      if (!step.arc) step.end = real(step.to);
+    }
     exact_ = move.to;
     if (!step.arc && step.to == at_ && step.end == real_) return;  // nothing to print
     at_ = step.to;
     real_ = step.end;
     plan_.steps.push_back(step);
+  }
+
+  /// A HEIDENHAIN helix ends between the units. What follows it in the working plane is polar too;
+  /// an arc in another plane needs its start on the grid: a line of less than a unit or two.
+  void step_onto_grid(const Step& next, const path::Arc& arc) {
+    const bool in_plane = path::axes_of(arc.plane).third == length_axis(program_);
+    if (in_plane || real_ == real(at_)) return;
+    Step line;
+    line.kind = next.kind;
+    line.feed = next.feed;
+    line.to = at_;
+    line.end = real_ = real(at_);
+    plan_.steps.push_back(line);
   }
 
   bool is_rapid(const path::Move& move) const {
@@ -120,6 +137,11 @@ private:
     const double sagitta = shape.start_radius * (1 - std::cos(shape.sweep / 2));
     if (sagitta * scale_ <= 0.5) return;
 
+    const auto third = static_cast<std::size_t>(path::axes_of(move.arc->plane).third);
+    // A coordinate that is not printed stays where the control has it.
+    if (step.to[third] == at_[third]) {
+      step.end[static_cast<int>(third)] = real_[static_cast<int>(third)];
+    }
     ArcStep arc;
     arc.plane = move.arc->plane;
     arc.sense = move.arc->sense;
@@ -140,15 +162,15 @@ private:
       }
       arc.centre = rounded_centre(centre, arc, step.end, shape.sweep);
     }
-    const auto third = static_cast<std::size_t>(path::axes_of(arc.plane).third);
-    if (program_.dialect == Dialect::Heidenhain && step.to[third] != at_[third]) {
+    const bool rises = step.to[third] != at_[third];
+    if (program_.dialect == Dialect::Heidenhain && (rises || real_ != real(at_))) {
       if (path::axes_of(arc.plane).third != length_axis(program_)) {
         throw Error(ErrorCode::Unsupported, "move " + std::to_string(index_) +
                                                 ": HEIDENHAIN has helices in the working plane "
                                                 "only; ask for lines");
       }
       arc.polar = std::llround(degrees(turned().sweep) * 1e4);
-      step.end = polar_end(real_, real(arc.centre, centre_scale_), arc.plane, *arc.polar,
+      step.end = polar_end(real_, real(arc.centre, centre_scale_), arc.plane, *arc.polar * 100'000,
                            step.end[static_cast<int>(third)]);
     }
     step.arc = arc;
@@ -232,7 +254,7 @@ Eigen::Vector3d polar_end(const Eigen::Vector3d& from, const Eigen::Vector3d& ce
   const auto [i, j, k] = path::axes_of(plane);
   const double a = from[i] - centre[i], b = from[j] - centre[j];
   // A whole turn ends where it began: reduce before the sine sees a rounded pi.
-  const double angle = radians(static_cast<double>(turn % 3'600'000) / 1e4);
+  const double angle = radians(static_cast<double>(turn % 360'000'000'000) / 1e9);
   const auto nano = [](double x) { return static_cast<double>(std::llround(x * 1e9)) / 1e9; };
   Eigen::Vector3d end;
   end[i] = nano(centre[i] + a * std::cos(angle) - b * std::sin(angle));

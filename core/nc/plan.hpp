@@ -52,7 +52,7 @@ constexpr int centre_decimals(const Program& program) {
 Plan plan(const Program& program);
 
 /// End of a turn about a centre in the plane (HEIDENHAIN CP), at the start's radius, rounded to
-/// 1e-9 mm. `turn` in 1e-4 degree, signed; `height` is the third coordinate of the end.
+/// 1e-9 mm. `turn` in 1e-9 degree, signed; `height` is the third coordinate of the end.
 Eigen::Vector3d polar_end(const Eigen::Vector3d& from, const Eigen::Vector3d& centre,
                           path::ArcPlane plane, std::int64_t turn, double height);
 

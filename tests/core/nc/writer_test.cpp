@@ -166,6 +166,31 @@ TEST(Writer, RoundedArcsKeepTheirRadiiAndTheirTurn) {
   EXPECT_LT(loose, arcs / 20);
 }
 
+double length_of(const path::Motion& motion) {
+  double sum = 0;
+  Vector3d from = motion.start;
+  for (const path::Move& move : motion.moves) {
+    sum += path::length(from, move);
+    from = move.to;
+  }
+  return sum;
+}
+
+// A flipped or lost arc would be millimetres long.
+TEST(Writer, RoundingDoesNotChangeTheWay) {
+  RandomPrograms random(4);
+  int programs = 0;
+  for (int n = 0; n < 800; ++n) {
+    SCOPED_TRACE(n);
+    const Program program = random.program(static_cast<Dialect>(n % 4));
+    if (program.decimals < 3) continue;
+    ++programs;
+    const double moves = static_cast<double>(program.motion.moves.size());
+    EXPECT_NEAR(length_of(rounded(program)), length_of(program.motion), 0.01 * moves);
+  }
+  EXPECT_GT(programs, 400);
+}
+
 TEST(Writer, NearlyClosedArcsDoNotTurnIntoTheirOpposite) {
   for (const double gap : {1e-5, -1e-5, 4e-5, -4e-5, 2e-4, -2e-4}) {
     SCOPED_TRACE(gap);
