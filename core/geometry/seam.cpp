@@ -48,7 +48,7 @@ Piece arc_through(const Eigen::Vector3d& a, const Eigen::Vector3d& p, const Eige
   if (!(s.w1 > 0)) s.w1 += 2 * std::numbers::pi;
   s.h0 = s.h1 = 0;
   piece.bend = s.r0 * s.w1 * s.w1;
-  piece.spiral = s;
+  piece.spiral = std::make_shared<const Spiral>(s);
   return piece;
 }
 
@@ -166,7 +166,7 @@ void Solid::add(const SeamPart& part, const Eigen::Vector3d& a, const Eigen::Vec
   if (!p) return;
   const std::optional<Eigen::Vector3d> q = seam_at(part, (part.from + middle) / 2);
   const Piece piece = arc_through(a, *p, b, parts_.size());
-  const bool follows = q && nearest(piece, *q).distance <= seam_sag;
+  const bool follows = q && geometry::nearest(piece, *q).distance <= seam_sag;
   if (follows || depth >= deepest_split) {
     seam_pieces_.push_back(piece);
     parts_.push_back(part);

@@ -152,15 +152,24 @@ std::optional<Eigen::Vector3d> Solid::seam_at(const SeamPart& part, double param
   return point + roots.z[static_cast<std::size_t>(root)] * along;
 }
 
+// A foot at the distance of the bound is the nearest: the seams need not be asked.
+Solid::Nearest Solid::nearest(const Eigen::Vector3d& p) const {
+  const double least = geometry::distance(material_, p);
+  Nearest best{.point = p, .distance = std::numeric_limits<double>::infinity()};
+  for (const Face& face : faces_) {
+    feet(face, p, best.distance, [&](const Eigen::Vector3d& q) {
+      best = {.point = q, .distance = (q - p).norm()};
+    });
+  }
+  if (best.distance <= least * (1 + 1e-12)) return best;
+  const Foot seam = seams_.nearest(p, 0, best.distance);
+  if (seam.distance < best.distance) best = {.point = seam.point, .distance = seam.distance};
+  return best;
+}
+
 double Solid::distance(const Eigen::Vector3d& p) const {
   const double least = geometry::distance(material_, p);
-  if (!(least > 0)) return least;
-  double best = std::numeric_limits<double>::infinity();
-  for (const Face& face : faces_) {
-    feet(face, p, best, [&](const Eigen::Vector3d& q) { best = std::min(best, (q - p).norm()); });
-  }
-  if (best <= least * (1 + 1e-12)) return best;
-  return seams_.nearest(p, 0, best).distance;
+  return least > 0 ? nearest(p).distance : least;
 }
 
 }  // namespace ridgeline::geometry

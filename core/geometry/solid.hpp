@@ -59,6 +59,13 @@ public:
   /// Point of a seam at a parameter; nullopt where the faces do not meet.
   std::optional<Eigen::Vector3d> seam_at(const SeamPart& part, double parameter) const;
 
+  /// The point of the material's boundary that is nearest to p, a point of the air; to seam_sag.
+  struct Nearest {
+    Eigen::Vector3d point;
+    double distance = 0;
+  };
+  Nearest nearest(const Eigen::Vector3d& p) const;
+
   /// Distance to the material: in the air true to seam_sag, in the material as
   /// distance (exact in sign).
   double distance(const Eigen::Vector3d& p) const;

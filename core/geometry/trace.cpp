@@ -77,6 +77,13 @@ double box_distance2(const Stretch& stretch, const Eigen::Vector3d& p) {
   return out.square().sum();
 }
 
+/// Nothing of the stretch is nearer. The box is quick; the chord is close where a fine path runs
+/// all but square to the way there, as a cutter's does.
+bool is_beyond(const Stretch& stretch, const Eigen::Vector3d& p, double distance) {
+  return box_distance2(stretch, p) >= distance * distance ||
+         distance_to_chord(stretch, p) - stretch.deviation >= distance;
+}
+
 }  // namespace
 
 Eigen::Vector3d at(const Piece& piece, double t) {
@@ -124,10 +131,10 @@ void Trace::build(std::size_t node, std::size_t first, std::size_t last) {
   const Stretch& two = nodes_[right(node)];
   stretch.low = one.low.cwiseMin(two.low);
   stretch.high = one.high.cwiseMax(two.high);
-  for (const Stretch& child : {one, two}) {
+  for (const Stretch* child : {&one, &two}) {
     const double ends =
-        std::max(distance_to_chord(stretch, child.a), distance_to_chord(stretch, child.b));
-    stretch.deviation = std::max(stretch.deviation, ends + child.deviation);
+        std::max(distance_to_chord(stretch, child->a), distance_to_chord(stretch, child->b));
+    stretch.deviation = std::max(stretch.deviation, ends + child->deviation);
   }
 }
 
@@ -147,7 +154,7 @@ Foot Trace::nearest(const Eigen::Vector3d& p, std::size_t hint, double within) c
   while (top > 0) {
     const std::size_t node = stack[--top];
     const Stretch& stretch = nodes_[node];
-    if (box_distance2(stretch, p) >= best.distance * best.distance) continue;
+    if (is_beyond(stretch, p, best.distance)) continue;
     if (stretch.last - stretch.first == 1) {
       offer(stretch.first);
       continue;
@@ -181,7 +188,7 @@ void add_spiral(std::vector<Piece>& pieces, const Spiral& whole, const Piece& en
     piece.b = i == n - 1 ? ends.b : derivatives(s, 1).c;
     piece.owner = ends.owner;
     piece.bend = 2 * std::abs(s.r1 - s.r0) * dw + std::max(s.r0, s.r1) * dw * dw;
-    piece.spiral = s;
+    piece.spiral = std::make_shared<const Spiral>(s);
     pieces.push_back(piece);
   }
 }

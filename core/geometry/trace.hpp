@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <limits>
-#include <optional>
+#include <memory>
 #include <vector>
 
 namespace ridgeline::geometry {
@@ -19,10 +19,10 @@ struct Spiral {
 
 /// A straight or curved piece of a path. Work frame, mm.
 struct Piece {
-  Eigen::Vector3d a, b;          ///< ends
-  std::size_t owner = 0;         ///< index of the move or seam that it belongs to
-  double bend = 0;               ///< bound of |second derivative by t|; 0: straight
-  std::optional<Spiral> spiral;  ///< absent: straight
+  Eigen::Vector3d a, b;                  ///< ends
+  std::size_t owner = 0;                 ///< index of the move or seam that it belongs to
+  double bend = 0;                       ///< bound of |second derivative by t|; 0: straight
+  std::shared_ptr<const Spiral> spiral;  ///< absent: straight
 };
 
 /// The point at t in [0, 1].

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -28,24 +29,31 @@ struct Place {
   Eigen::Vector3d point;  ///< work frame
 };
 
-/// What the cut measures (design: section 9).
+/// What the cut measures (design: section 9). Feed moves cut; of the tool, the ball cuts and neck,
+/// shank and holder must stay clear.
 struct Report {
-  double width_min = 0, width_max = 0;        ///< over the loop, in each VP(u)
+  double width_min = 0, width_max = 0;        ///< over the loop, in each VP(u); 0: an uncut place
   double width_min_at = 0, width_max_at = 0;  ///< u
-  double overcut = 0;                         ///< deepest cut outside the chamfer band, >= 0
-  std::optional<Place> overcut_at;
-  std::optional<double> neck_clearance;  ///< neck and shank to the material; nullopt: not described
-  std::optional<Place> neck_at;
-  std::optional<double> holder_clearance;
+  /// Deepest cut outside the chamfer band anywhere on the body, by feed moves (see overcut.hpp) or
+  /// by the ball in rapids; 0 when there is none.
+  double overcut = 0;
+  std::optional<Place> overcut_at;  ///< ball centre
+  /// Neck and shank to the material along the whole motion; nullopt: not described. Negative: they
+  /// meet. Proven to clearance_tolerance (clearance.hpp).
+  std::optional<double> neck_clearance;
+  std::optional<Place> neck_at;            ///< point of the tool
+  std::optional<double> holder_clearance;  ///< likewise, the holder
   std::optional<Place> holder_at;
-  double rapid_clearance = 0;  ///< smallest distance of ball, neck, shank and holder in rapids
-  double closing_error = 0;    ///< where the cut loop ends against where it began
-  double path_length = 0;      ///< all moves [mm]
-  double cutting_time = 0;     ///< [s], each feed move at its own feed
+  /// Smallest distance of all that is described of the tool in rapids; infinite: no rapid moves.
+  double rapid_clearance = std::numeric_limits<double>::infinity();
+  std::optional<Place> rapid_at;
+  double closing_error = 0;  ///< start of the cut to the last half of its loop, worst of all passes
+  double path_length = 0;    ///< all moves [mm]
+  double cutting_time = 0;   ///< [s], each feed move at its own feed
 };
 
-/// Measures the polyline (and arcs) of a motion. Throws Error{BadInput} when it never meets the
-/// edge.
+/// Measures the polyline (and arcs) of a motion. Throws Error{BadInput} when the values are not
+/// finite, a feed move has no feed, or the motion never meets the edge.
 Report measure(const Subject& subject, const path::Motion& motion);
 
 }  // namespace ridgeline::verify
