@@ -20,6 +20,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int iterations_limit = 40;
+constexpr double ridge_doubt = 0.3;         // of the ridge's second derivative taken for a border's
+constexpr double left_out = 2e-11;          // of D, in a squared length: 1e-11 mm in a length
 constexpr double joint_step = 1e-12;        // u beyond a joint, to be on its other side
 constexpr double joint_reach = 0.03;        // of the loop: a joint further off is not looked beyond
 constexpr double most_shift = 0.25;         // of the loop: a border further off belongs elsewhere
@@ -37,6 +39,7 @@ struct Touch {
   bool on_wall = false;  // G2, otherwise G1
   double v = 0;
   Vector3d B, B1, B2;
+  double doubt = ridge_doubt;      // relative error of B2, about
   std::optional<Vector3d> before;  // tangent on the side of smaller v, at a corner
 };
 
@@ -59,12 +62,20 @@ struct Solver {
     const SectionPoint point = section_at(*section, at);
     const BorderRates rates = border_rates(*section, point, at);
     const Vector3d B1 = touch.on_wall ? rates.G2 : rates.G1;
-    // Second derivative: the ridge's, or what the tangent did since the last look, joints apart.
+    const Vector3d B = touch.on_wall ? point.G2 : point.G1;
+    // Second derivative: of the cubic through this look and the last, joints apart; or the ridge's.
     const double step = v - touch.v;
     const bool is_smooth = std::abs(step) > 1e-9 && !joint_between(touch.v, step);
-    touch.B2 = is_smooth ? Vector3d((B1 - touch.B1) / step) : rates.P2;
+    if (is_smooth) {
+      touch.B2 = (6 * (touch.B - B) + step * (2 * touch.B1 + 4 * B1)) / (step * step);
+      const double bend = step * touch.B2.norm() / B1.norm();
+      touch.doubt = std::min(ridge_doubt, bend * bend);
+    } else {
+      touch.B2 = rates.P2;
+      touch.doubt = ridge_doubt;
+    }
     touch.v = v;
-    touch.B = touch.on_wall ? point.G2 : point.G1;
+    touch.B = B;
     touch.B1 = B1;
     touch.before.reset();
   }
@@ -141,7 +152,7 @@ struct Solver {
       for (int i = 0; i < 6; ++i) {
         const Sight seen = sight(far, C);
         if (!(seen.m > 0 && seen.h * side > 0) && i == 0) break;  // it only recedes there
-        if (seen.m > 0 && seen.square < D * D * (1 - 1e-12) && is_settled(seen, D)) return far;
+        if (seen.m > 0 && seen.square < D * D * (1 - 1e-12) && is_settled(far, seen, D)) return far;
         const double step = seen.h / seen.m;
         if (!(seen.m > 0) || joint_between(far.v, step)) break;
         look(far, far.v + step);
@@ -150,9 +161,12 @@ struct Solver {
     return std::nullopt;
   }
 
-  // What the second-order form leaves out is a fraction of h^2 / m.
-  static bool is_settled(const Sight& seen, double D) {
-    return seen.h * seen.h <= 1e-12 * D * seen.m * std::min(1.0, D);
+  // The second-order form corrects the squared length by h^2 / m. Of that it may miss the share by
+  // which B2 is wrong, and what the border bends on its way to the foot.
+  static bool is_settled(const Touch& touch, const Sight& seen, double D) {
+    if (touch.before) return seen.h == 0;
+    const double bend = std::abs(seen.h / seen.m) * touch.B2.norm() / touch.B1.norm();
+    return seen.h * seen.h * (touch.doubt + bend) <= left_out * D * std::min(1.0, D) * seen.m;
   }
 
   // Newton in the plane VP from C: the ball of radius D there touches both borders.
@@ -176,8 +190,7 @@ struct Solver {
       for (std::size_t b = 0; b < 2; ++b) {
         if (!(touches[b].before || seen[b].m > 0)) return std::nullopt;  // the ball does not fit
         if (std::abs(touches[b].v - u) > most_shift) return std::nullopt;
-        if (!touches[b].before && !is_settled(seen[b], D)) settled = false;
-        if (touches[b].before && seen[b].h != 0) settled = false;
+        if (!is_settled(touches[b], seen[b], D)) settled = false;
       }
       if (settled) {
         for (std::size_t b = 0; b < 2 && settled; ++b) {
@@ -198,10 +211,20 @@ struct Solver {
 };
 
 std::array<Touch, 2> touches_at(const SectionPoint& point, const BorderRates& rates, double u) {
-  const Touch body{
-      .on_wall = false, .v = u, .B = point.G1, .B1 = rates.G1, .B2 = rates.P2, .before = {}};
-  const Touch wall{
-      .on_wall = true, .v = u, .B = point.G2, .B1 = rates.G2, .B2 = rates.P2, .before = {}};
+  const Touch body{.on_wall = false,
+                   .v = u,
+                   .B = point.G1,
+                   .B1 = rates.G1,
+                   .B2 = rates.P2,
+                   .doubt = ridge_doubt,
+                   .before = {}};
+  const Touch wall{.on_wall = true,
+                   .v = u,
+                   .B = point.G2,
+                   .B1 = rates.G2,
+                   .B2 = rates.P2,
+                   .doubt = ridge_doubt,
+                   .before = {}};
   return {body, wall};
 }
 

@@ -69,7 +69,7 @@ TEST(EdgesOracle, BothMethodsMatchIndependentSolutions) {
       ++checked;
     }
   }
-  EXPECT_EQ(checked, 240);
+  EXPECT_EQ(checked, 96);
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ if __name__ == '__main__':
     rnd = random.Random(20260711)
     out = []
     kinds = ['circle', 'elongated', 'rounded_rectangle']
-    while len(out) < 48:
+    while len(out) < 24:
         k = kinds[len(out) % 3]
         outer = len(out) % 2
         plane = outer and len(out) % 4 == 1
@@ -98,15 +98,15 @@ if __name__ == '__main__':
                  plane=((mpf(0), -sin(bt), cos(bt)), mpf(R1)) if plane else None)
         points = []
         try:
-            for i in range(5):
+            for i in range(4):
                 u = mpf(v(rnd.random()))
                 d = None if delta is None else radians(mpf(delta))
                 uu = u * E.perim()
                 P, G1, G2, C, e1, e2, dd = section(E, uu, mpf(W), mpf(D), d)
                 S, x = swept(E, uu, mpf(W), mpf(D), d)
                 if E.m * E.F(G2) < 0 or E.s(G1) < 0: raise ValueError('leaves its surfaces')
-                for k in range(40):
-                    q = section(E, (u + mpf(k - 20) / 100) * E.perim(), mpf(W), mpf(D), d)
+                for k in range(12):
+                    q = section(E, (u + mpf(2 * k - 11) / 100) * E.perim(), mpf(W), mpf(D), d)
                     if min(norm(S - q[1]), norm(S - q[2])) < D - mpf('1e-9'): raise ValueError('the ball does not fit')
                 n = lambda p: [nstr(c, 17) for c in p]
                 points.append({'u': float(u), 'P': n(P), 'G1': n(G1), 'G2': n(G2), 'section': n(C), 'swept': n(S)})
