@@ -1,2 +1,2 @@
-set(SOURCES)
-set(HEADERS coefficients.hpp tool.hpp)
+set(SOURCES surface.cpp)
+set(HEADERS coefficients.hpp surface.hpp tool.hpp)

@@ -35,7 +35,7 @@ struct Box {
   std::size_t node = 0;
   double t0 = 0, t1 = 1;    ///< of the piece, when the node is a leaf
   std::size_t surface = 0;  ///< the patch is a part of it
-  ToolSurface patch;
+  tool::Surface patch;
   double turn0 = 0, turn1 = 0;  ///< angle about the axis
   double bound = -infinity;     ///< nothing in the box is nearer to the material
   int split = 0;                ///< along which side to split: path, patch, turn
@@ -56,7 +56,7 @@ public:
   Search(const Solid& solid, const Trace& path, const Eigen::Vector3d& axis)
       : solid_(solid), path_(path), z_(axis), x_(axis.unitOrthogonal()), y_(z_.cross(x_)) {}
 
-  Clearance run(const std::vector<ToolSurface>& surfaces);
+  Clearance run(const std::vector<tool::Surface>& surfaces);
 
 private:
   Eigen::Vector3d offset(double height, double radius, double turn) const {
@@ -72,8 +72,8 @@ private:
   double offer(const Box& box, const Station& s);
   void push(Box box);
   void split(const Box& box);
-  Eigen::Vector3d nearest_on(const ToolSurface& surface, const Eigen::Vector3d& p) const;
-  void polish(const ToolSurface& surface);
+  Eigen::Vector3d nearest_on(const tool::Surface& surface, const Eigen::Vector3d& p) const;
+  void polish(const tool::Surface& surface);
   double tolerance() const {
     const double relative = best_ < 0 ? collision_relative : clearance_relative;
     return std::max(clearance_tolerance, relative * std::abs(best_));
@@ -237,7 +237,7 @@ void Search::split(const Box& box) {
 }
 
 /// The point of a surface that is nearest to p; ball centre and p relative to it.
-Eigen::Vector3d Search::nearest_on(const ToolSurface& surface, const Eigen::Vector3d& p) const {
+Eigen::Vector3d Search::nearest_on(const tool::Surface& surface, const Eigen::Vector3d& p) const {
   const double height = std::clamp(p.dot(z_), surface.low, surface.high);
   const Eigen::Vector3d out = p - p.dot(z_) * z_;
   const double r = out.norm();
@@ -248,7 +248,7 @@ Eigen::Vector3d Search::nearest_on(const ToolSurface& surface, const Eigen::Vect
 /// The bound is coarse, the value is not: downhill from the best station. At each place of the path
 /// tool and material are projected onto each other in turn; along it the reach doubles while it
 /// pays.
-void Search::polish(const ToolSurface& surface) {
+void Search::polish(const tool::Surface& surface) {
   if (!(best_ > 0)) return;
   double index = static_cast<double>(best_at_.piece) + best_at_.t;
   Eigen::Vector3d off = offset(best_at_.height, best_at_.radius, best_at_.turn);
@@ -279,7 +279,7 @@ void Search::polish(const ToolSurface& surface) {
   best_point_ = centre(index) + off;
 }
 
-Clearance Search::run(const std::vector<ToolSurface>& surfaces) {
+Clearance Search::run(const std::vector<tool::Surface>& surfaces) {
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     Box box;
     box.surface = k;
@@ -309,7 +309,7 @@ Clearance Search::run(const std::vector<ToolSurface>& surfaces) {
 }  // namespace
 
 Clearance clearance(const Solid& solid, const Trace& path, const Eigen::Vector3d& axis,
-                    const std::vector<ToolSurface>& surfaces) {
+                    const std::vector<tool::Surface>& surfaces) {
   return Search(solid, path, axis).run(surfaces);
 }
 

@@ -5,7 +5,7 @@
 
 #include "core/geometry/solid.hpp"
 #include "core/geometry/trace.hpp"
-#include "core/verify/tool_surface.hpp"
+#include "core/tool/surface.hpp"
 
 namespace ridgeline::verify {
 
@@ -24,6 +24,6 @@ inline constexpr double clearance_relative = 2e-2;
 
 /// Needs a path and at least one surface. `axis`: unit, tip to spindle.
 Clearance clearance(const geometry::Solid& solid, const geometry::Trace& path,
-                    const Eigen::Vector3d& axis, const std::vector<ToolSurface>& surfaces);
+                    const Eigen::Vector3d& axis, const std::vector<tool::Surface>& surfaces);
 
 }  // namespace ridgeline::verify

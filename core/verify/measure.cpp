@@ -125,7 +125,7 @@ void measure_overcut(const Subject& subject, const Solid& solid, const Trace& fe
     report.overcut_at = Place{feeds.pieces()[found.piece].owner, found.centre};
   }
   if (rapids.empty()) return;
-  const Clearance ball = clearance(solid, rapids, subject.tool_axis, {ball_of(subject.tool)});
+  const Clearance ball = clearance(solid, rapids, subject.tool_axis, {tool::ball_of(subject.tool)});
   if (-ball.value > report.overcut) {
     report.overcut = -ball.value;
     report.overcut_at = Place{rapids.pieces()[ball.piece].owner, ball.point};
@@ -141,8 +141,8 @@ void measure_clearances(const Subject& subject, const Solid& solid, const Trace&
                     (piece.b - subject.workpiece.position).norm()});
   }
   const double top = 2 * far + solid.reach();
-  const std::vector<ToolSurface> neck = neck_of(subject.tool, top);
-  const std::vector<ToolSurface> holder = holder_of(subject.tool, top);
+  const std::vector<tool::Surface> neck = tool::neck_of(subject.tool, top);
+  const std::vector<tool::Surface> holder = tool::holder_of(subject.tool, top);
   const auto place = [](const Trace& trace, const Clearance& c) {
     return Place{trace.pieces()[c.piece].owner, c.point};
   };
@@ -157,7 +157,7 @@ void measure_clearances(const Subject& subject, const Solid& solid, const Trace&
     report.holder_at = place(all, c);
   }
   if (!rapids.empty()) {
-    std::vector<ToolSurface> whole = {ball_of(subject.tool)};
+    std::vector<tool::Surface> whole = {tool::ball_of(subject.tool)};
     whole.insert(whole.end(), neck.begin(), neck.end());
     whole.insert(whole.end(), holder.begin(), holder.end());
     const Clearance c = clearance(solid, rapids, subject.tool_axis, whole);

@@ -33,7 +33,7 @@ Trace trace_of(const path::Motion& motion) {
 
 // The neck leaves the ball of 3 at sqrt(9 - 2.25) above its centre; ends count from the tip.
 TEST(Clearance, ToolSurfacesAreTheDescribedParts) {
-  const std::vector<ToolSurface> neck = neck_of(lollipop(), 500);
+  const std::vector<tool::Surface> neck = tool::neck_of(lollipop(), 500);
   ASSERT_EQ(neck.size(), 3U);
   EXPECT_DOUBLE_EQ(neck[0].low, std::sqrt(9 - 2.25));
   EXPECT_DOUBLE_EQ(neck[0].high, 17);
@@ -43,14 +43,14 @@ TEST(Clearance, ToolSurfacesAreTheDescribedParts) {
   EXPECT_DOUBLE_EQ(neck[2].low, 17);  // the ring between
   EXPECT_DOUBLE_EQ(neck[2].inner, 1.5);
   EXPECT_DOUBLE_EQ(neck[2].outer, 4);
-  const std::vector<ToolSurface> holder = holder_of(lollipop(), 500);
+  const std::vector<tool::Surface> holder = tool::holder_of(lollipop(), 500);
   ASSERT_EQ(holder.size(), 2U);
   EXPECT_DOUBLE_EQ(holder[0].low, 37);
   EXPECT_DOUBLE_EQ(holder[0].high, 500);
   tool::Tool bare;
   bare.radius = 3;
-  EXPECT_TRUE(neck_of(bare, 500).empty());
-  EXPECT_TRUE(holder_of(bare, 500).empty());
+  EXPECT_TRUE(tool::neck_of(bare, 500).empty());
+  EXPECT_TRUE(tool::holder_of(bare, 500).empty());
 }
 
 // Hole of 5 with its loop on r = 3, 4 below the top: the neck of 1.5 comes to 5 - 3 - 1.5. The
@@ -61,9 +61,9 @@ TEST(Clearance, InAStraightHoleItIsWhatIsLeft) {
   const Solid solid(subject.workpiece);
   for (const path::Motion& motion : {polygon(c, 400), circle(c)}) {
     const Trace trace = trace_of(motion);
-    EXPECT_NEAR(clearance(solid, trace, Vector3d::UnitZ(), neck_of(lollipop(), 200)).value, 0.5,
+    EXPECT_NEAR(clearance(solid, trace, Vector3d::UnitZ(), tool::neck_of(lollipop(), 200)).value, 0.5,
                 1e-7);
-    EXPECT_NEAR(clearance(solid, trace, Vector3d::UnitZ(), holder_of(lollipop(), 200)).value, 33,
+    EXPECT_NEAR(clearance(solid, trace, Vector3d::UnitZ(), tool::holder_of(lollipop(), 200)).value, 33,
                 1e-7);
   }
 }
@@ -78,8 +78,8 @@ TEST(Clearance, AFlatHolderFaceIsFlat) {
   const Countersink c{.R2 = 5, .D = 3, .r = 1, .z = 6};
   const Solid solid(subject_of({}).workpiece);
   const Trace trace = trace_of(circle(c));
-  EXPECT_NEAR(clearance(solid, trace, Vector3d::UnitZ(), holder_of(tool, 200)).value, 2, 1e-7);
-  EXPECT_LT(clearance(solid, trace, -Vector3d::UnitZ(), holder_of(tool, 200)).value, 0);
+  EXPECT_NEAR(clearance(solid, trace, Vector3d::UnitZ(), tool::holder_of(tool, 200)).value, 2, 1e-7);
+  EXPECT_LT(clearance(solid, trace, -Vector3d::UnitZ(), tool::holder_of(tool, 200)).value, 0);
 }
 
 // The holder passes a corner of the block: rim 12 round, 1 beyond the corner in X and 2 above.
@@ -92,7 +92,7 @@ TEST(Clearance, ARimPassingAnEdgeIsMeasuredAcross) {
   path::Motion motion;
   motion.start = {30 + 12 + 1, -10, 10 - 7 + 2};
   add_line(motion, path::MoveKind::Retract, motion.start + Vector3d(0, 20, 0));
-  EXPECT_NEAR(clearance(solid, trace_of(motion), Vector3d::UnitZ(), holder_of(tool, 200)).value,
+  EXPECT_NEAR(clearance(solid, trace_of(motion), Vector3d::UnitZ(), tool::holder_of(tool, 200)).value,
               std::sqrt(5), 1e-6);
 }
 
@@ -106,7 +106,7 @@ Vector3d any_direction(std::mt19937& random) {
 }
 
 /// A point of a surface at random: height and radius uniform, any turn.
-Vector3d any_point(std::mt19937& random, const ToolSurface& s, const Vector3d& axis) {
+Vector3d any_point(std::mt19937& random, const tool::Surface& s, const Vector3d& axis) {
   const Vector3d x = axis.unitOrthogonal();
   const double turn = uniform(random, 0, 2 * std::numbers::pi);
   return uniform(random, s.low, s.high) * axis +
@@ -146,8 +146,8 @@ TEST(Clearance, NoSampledPointOfTheToolIsNearer) {
     tool.shank_radius = uniform(random, 0.5, 3);
     tool.stickout = *tool.neck_length + uniform(random, 2, 10);
     tool.holder_radius = 6;
-    std::vector<ToolSurface> surfaces = neck_of(tool, 100);
-    for (const ToolSurface& s : holder_of(tool, 100)) surfaces.push_back(s);
+    std::vector<tool::Surface> surfaces = tool::neck_of(tool, 100);
+    for (const tool::Surface& s : tool::holder_of(tool, 100)) surfaces.push_back(s);
 
     const Trace trace = trace_of(motion);
     const Clearance found = clearance(solid, trace, axis, surfaces);
@@ -155,7 +155,7 @@ TEST(Clearance, NoSampledPointOfTheToolIsNearer) {
     for (int k = 0; k < 4000; ++k) {
       const geometry::Piece& piece = trace.pieces()[random() % trace.pieces().size()];
       const Vector3d c = geometry::at(piece, uniform(random, 0, 1));
-      const ToolSurface& surface = surfaces[random() % surfaces.size()];
+      const tool::Surface& surface = surfaces[random() % surfaces.size()];
       sampled = std::min(sampled, solid.distance(c + any_point(random, surface, axis)));
     }
     if (found.value > 0) {

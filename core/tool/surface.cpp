@@ -1,21 +1,21 @@
-#include "core/verify/tool_surface.hpp"
+#include "core/tool/surface.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace ridgeline::verify {
+namespace ridgeline::tool {
 
-ToolSurface ball_of(const tool::Tool& tool) {
-  return {.ball = tool::cutting_radius(tool)};
+Surface ball_of(const Tool& tool) {
+  return {.ball = cutting_radius(tool)};
 }
 
-std::vector<ToolSurface> neck_of(const tool::Tool& tool, double top) {
-  const double D = tool::cutting_radius(tool);
+std::vector<Surface> neck_of(const Tool& tool, double top) {
+  const double D = cutting_radius(tool);
   const double end = tool.stickout ? std::min(*tool.stickout - D, top) : top;
   const double step = tool.neck_length   ? std::clamp(*tool.neck_length - D, 0.0, end)
                       : tool.neck_radius ? end
                                          : 0;
-  std::vector<ToolSurface> surfaces;
+  std::vector<Surface> surfaces;
   const auto add = [&](double radius, double from, double to) {
     const double out = radius < D ? std::sqrt(D * D - radius * radius) : 0;  // of the ball
     const double low = std::max(from, out);
@@ -43,9 +43,9 @@ std::vector<ToolSurface> neck_of(const tool::Tool& tool, double top) {
   return surfaces;
 }
 
-std::vector<ToolSurface> holder_of(const tool::Tool& tool, double top) {
+std::vector<Surface> holder_of(const Tool& tool, double top) {
   if (!tool.holder_radius || !tool.stickout) return {};
-  const double low = *tool.stickout - tool::cutting_radius(tool);
+  const double low = *tool.stickout - cutting_radius(tool);
   const double radius = *tool.holder_radius;
   return {{.low = low,
            .high = std::max(top, low + radius),
@@ -55,4 +55,4 @@ std::vector<ToolSurface> holder_of(const tool::Tool& tool, double top) {
           {.low = low, .high = low, .inner = 0, .outer = radius, .ball = 0}};
 }
 
-}  // namespace ridgeline::verify
+}  // namespace ridgeline::tool

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "core/chamfer/route.hpp"
+
+namespace ridgeline::chamfer {
+
+/// A cutting point in the work frame.
+struct CutPoint {
+  double u = 0;
+  Eigen::Vector3d P, G1, G2, C;
+};
+
+/// Once round the edge, in cutting order; `overlap` goes on from the first point again, past the
+/// seam (empty: the loop ends with its first point).
+struct Round {
+  std::vector<CutPoint> points;
+  std::vector<CutPoint> overlap;
+};
+
+/// Does the round, as its points are ordered, climb? The tooth at the contact moves by omega x k,
+/// with k from the ball centre to the middle of the chamfer and omega along -tool_axis for
+/// a spindle that turns clockwise (M3). Climb milling: it moves against the travel of the tool.
+/// Summed over the loop, as places where the contact is below the tip have no sense of their own.
+bool is_climb(const std::vector<CutPoint>& points, const Eigen::Vector3d& tool_axis,
+              tool::SpindleSense spindle);
+
+/// What the motion of a job consists of besides its rounds.
+struct MotionPlan {
+  path::Motion motion;  ///< of the ball centre
+  std::vector<std::string> warnings;
+  double room = 0;  ///< of the tool's parts above the ball at the places looked at
+};
+
+/// Approach, lead-in, rounds, lead-out and retract (design: section 7). `borders`: the chamfer's
+/// borders all round, dense, which a lead must not cut into.
+MotionPlan plan(const Job& job, const geometry::Edge& edge, const Route& route, const Room& room,
+                const std::vector<Round>& rounds, const std::vector<CutPoint>& borders);
+
+}  // namespace ridgeline::chamfer
