@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/nc/cl.hpp"
 #include "jobs/chamfer_job.hpp"
 #include "jobs/check.hpp"
 #include "jobs/drawing.hpp"
@@ -74,11 +75,8 @@ Solved solve_to_width(const ChamferJob& job, const Progress& progress) {
 
 /// Throws the first failure of a program that must not be emitted.
 void refuse_failures(const ChamferJob& job, const Solved& solved) {
-  for (const Error& error : failures(job, solved.subject, solved.report)) {
-    const bool is_width =
-        error.code() == ErrorCode::VerificationFailed && error.details().parameter;
-    if (!is_width || keeps_width(job)) throw error;
-  }
+  for (const Failure& failure : failures(job, solved.subject, solved.report))
+    if (!is_width(failure) || keeps_width(job)) throw failure.error;
 }
 
 nlohmann::json named(const std::string& name, const std::optional<int>& revision) {
@@ -149,6 +147,14 @@ void add_arrays(const Solved& solved, Answer& answer) {
   answer.arrays.push_back(moves_array("/moves", solved.rounded, answer.document));
 }
 
+std::string text_of(const ChamferJob& job, const Solved& solved, std::string_view format) {
+  if (format == "nc") return nc::write(solved.program);
+  if (format == "cl") return nc::write_cl(solved.program);
+  if (format == "csv") return nc::write_csv(solved.rounded);
+  if (format == "svg") return chamfer_drawing(job.job, solved.subject.edge, solved.result);
+  throw Error(ErrorCode::Internal, "a format that chamfer jobs list but do not write");
+}
+
 }  // namespace
 
 Answer chamfer(const Request& request) {
@@ -157,12 +163,10 @@ Answer chamfer(const Request& request) {
   const Solved solved = solve_to_width(job, request.progress);
   refuse_failures(job, solved);
   Answer answer = document_of(job, solved);
-  if (request.format == "nc")
-    answer.text = nc::write(solved.program);
-  else if (request.format == "svg")
-    answer.text = chamfer_drawing(job.job, solved.subject.edge, solved.result);
-  else
+  if (request.format == "json")
     add_arrays(solved, answer);
+  else
+    answer.text = text_of(job, solved, request.format);
   return answer;
 }
 

@@ -7,26 +7,24 @@
 namespace ridgeline::jobs {
 namespace {
 
-Error failure(ErrorCode code, const std::string& what, double value, const std::string& limit,
-              const std::optional<verify::Place>& place = {}) {
+Failure failure(ErrorCode code, const std::string& what, double value, const std::string& limit,
+                const std::optional<verify::Place>& place) {
   ErrorDetails details;
   details.value = text(value) + " mm";
   details.limit = limit;
-  std::string message = what + " is " + details.value + ", must be " + limit;
-  if (place) {
-    details.target = place->point;
-    message += " (move " + std::to_string(place->move + 1) + ")";
-  }
-  return {code, message, details};
+  if (place) details.target = place->point;
+  const std::string message = what + " is " + details.value + ", must be " + limit;
+  return {Error(code, message, details),
+          place ? std::optional(place->move) : std::optional<std::size_t>()};
 }
 
-Error width_failure(const std::string& what, double value, double u, const std::string& limit) {
+Failure width_failure(const std::string& what, double value, double u, const std::string& limit) {
   ErrorDetails details;
   details.value = text(value) + " mm";
   details.limit = limit;
   details.parameter = u;
-  return {ErrorCode::VerificationFailed, what + " is " + details.value + ", must be " + limit,
-          details};
+  const std::string message = what + " is " + details.value + ", must be " + limit;
+  return {Error(ErrorCode::VerificationFailed, message, details), std::nullopt};
 }
 
 nlohmann::json place_document(const std::optional<verify::Place>& place) {
@@ -58,9 +56,9 @@ verify::Subject subject_of(const ChamferJob& job, const Eigen::Vector3d& tool_ax
   return subject;
 }
 
-std::vector<Error> failures(const ChamferJob& job, const verify::Subject& subject,
-                            const verify::Report& report) {
-  std::vector<Error> failed;
+std::vector<Failure> failures(const ChamferJob& job, const verify::Subject& subject,
+                              const verify::Report& report) {
+  std::vector<Failure> failed;
   const std::string clear = "greater than 0 mm";
   if (report.neck_clearance && !(*report.neck_clearance > 0))
     failed.push_back(failure(ErrorCode::NeckCollision, "clearance of neck and shank",
@@ -74,7 +72,7 @@ std::vector<Error> failures(const ChamferJob& job, const verify::Subject& subjec
                              "at most " + text(limit) + " mm deep", report.overcut_at));
   if (!(report.rapid_clearance > 0))
     failed.push_back(failure(ErrorCode::VerificationFailed, "clearance of rapids",
-                             report.rapid_clearance, clear));
+                             report.rapid_clearance, clear, report.rapid_at));
   const std::string width = text(subject.width) + " mm within " + text(limit) + " mm";
   if (!(report.width_min >= subject.width - limit))
     failed.push_back(
@@ -83,6 +81,11 @@ std::vector<Error> failures(const ChamferJob& job, const verify::Subject& subjec
     failed.push_back(
         width_failure("the greatest width", report.width_max, report.width_max_at, width));
   return failed;
+}
+
+bool is_width(const Failure& failure) {
+  return failure.error.code() == ErrorCode::VerificationFailed &&
+         failure.error.details().parameter.has_value();
 }
 
 nlohmann::json report_document(const verify::Report& report) {
@@ -97,6 +100,7 @@ nlohmann::json report_document(const verify::Report& report) {
           {"holder_clearance", number_or_null(report.holder_clearance)},
           {"holder_at", place_document(report.holder_at)},
           {"rapid_clearance", number_or_null(report.rapid_clearance)},
+          {"rapid_at", place_document(report.rapid_at)},
           {"closing_error", report.closing_error},
           {"path_length", report.path_length},
           {"cutting_time", report.cutting_time}};

@@ -15,11 +15,20 @@ namespace ridgeline::jobs {
 /// spindle.
 verify::Subject subject_of(const ChamferJob& job, const Eigen::Vector3d& tool_axis);
 
-/// What the measured program does not keep; the first of them in order of danger: collisions
-/// (NeckCollision, HolderCollision), gouges (ToolTooLarge), rapids closer than the clearance and
-/// widths beyond width_limit() (VerificationFailed).
-std::vector<Error> failures(const ChamferJob& job, const verify::Subject& subject,
-                            const verify::Report& report);
+/// One thing that a measured program does not keep.
+struct Failure {
+  Error error;
+  std::optional<std::size_t> move;  ///< index of the move where it is worst
+};
+
+/// What the measured program does not keep, in order of danger: collisions (NeckCollision,
+/// HolderCollision), gouges (ToolTooLarge), rapids that touch and widths beyond width_limit()
+/// (VerificationFailed).
+std::vector<Failure> failures(const ChamferJob& job, const verify::Subject& subject,
+                              const verify::Report& report);
+
+/// Is it the width that is not kept?
+bool is_width(const Failure& failure);
 
 /// The measured part of "report" of interfaces.md.
 nlohmann::json report_document(const verify::Report& report);

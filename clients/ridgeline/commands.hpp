@@ -1,13 +1,17 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "clients/ridgeline/outcome.hpp"
 #include "clients/ridgeline/session.hpp"
 
-namespace ridgeline::client {
+namespace CLI {
+class App;
+}
+
+namespace ridgeline::command {
 
 /// What the command line asked for, set by the command that was parsed.
 struct Selected {
@@ -23,4 +27,4 @@ void add_library_commands(CLI::App& app, Selected& selected);
 /// Reads a file that is to hold one JSON document. Throws Error{BadFile} or Error{BadInput}.
 nlohmann::json read_document(const std::string& path);
 
-}  // namespace ridgeline::client
+}  // namespace ridgeline::command

@@ -11,7 +11,7 @@
 #include "core/base/error.hpp"
 #include "jobs/parse.hpp"
 
-namespace ridgeline::client {
+namespace ridgeline::command {
 namespace {
 
 [[noreturn]] void fail(const std::string& path, const std::string& what, const std::string& why) {
@@ -89,4 +89,4 @@ void write_file(const std::string& path, std::string_view text) {
   }
 }
 
-}  // namespace ridgeline::client
+}  // namespace ridgeline::command

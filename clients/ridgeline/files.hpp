@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace ridgeline::client {
+namespace ridgeline::command {
 
 /// The whole of a file, or of standard input for "-". Throws Error{BadFile} when it cannot be read
 /// or is longer than a document may be.
@@ -13,4 +13,4 @@ std::string read_file(const std::string& path);
 /// not at all. Throws Error{BadFile}.
 void write_file(const std::string& path, std::string_view text);
 
-}  // namespace ridgeline::client
+}  // namespace ridgeline::command

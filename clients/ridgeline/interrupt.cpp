@@ -7,7 +7,7 @@
 
 #include "clients/ridgeline/outcome.hpp"
 
-namespace ridgeline::client {
+namespace ridgeline::command {
 namespace {
 
 sigset_t interrupting_signals() {
@@ -40,4 +40,4 @@ Interrupt::~Interrupt() {
   waiter_.join();
 }
 
-}  // namespace ridgeline::client
+}  // namespace ridgeline::command

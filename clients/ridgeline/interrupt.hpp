@@ -4,7 +4,7 @@
 #include <stop_token>
 #include <thread>
 
-namespace ridgeline::client {
+namespace ridgeline::command {
 
 /// Turns SIGINT and SIGTERM into a stop request. Made before any other thread, so that all threads
 /// leave the signals to it. A second signal ends the program at once with status 130.
@@ -24,4 +24,4 @@ private:
   std::thread waiter_;
 };
 
-}  // namespace ridgeline::client
+}  // namespace ridgeline::command

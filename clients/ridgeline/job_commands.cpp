@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <vector>
 
@@ -5,7 +6,7 @@
 #include "clients/ridgeline/files.hpp"
 #include "jobs/parse.hpp"
 
-namespace ridgeline::client {
+namespace ridgeline::command {
 namespace {
 
 /// A command that sends a job file as it is.
@@ -92,7 +93,13 @@ void add_job_commands(CLI::App& app, Selected& selected) {
        "Formats: json (path, report), nc (program for the control that the job names), cl (APT CL\n"
        "data), csv (one line a point), svg (drawing).\n"
        "Example: ridgeline chamfer job.json --format nc -o O9101.nc"});
+  add_job_command(app, selected,
+                  {"predict",
+                   "Predict the machining error that the cutting force makes, along a path",
+                   {"json", "nc", "csv", "svg"},
+                   "Formats: json (error, force and deflection), nc (program of the corrected "
+                   "path), csv, svg."});
   add_verify(app, selected);
 }
 
-}  // namespace ridgeline::client
+}  // namespace ridgeline::command

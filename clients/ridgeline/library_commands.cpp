@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -6,7 +7,7 @@
 #include "clients/ridgeline/files.hpp"
 #include "jobs/refuse.hpp"
 
-namespace ridgeline::client {
+namespace ridgeline::command {
 namespace {
 
 using Json = nlohmann::json;
@@ -123,4 +124,4 @@ void add_library_commands(CLI::App& app, Selected& selected) {
           [](const Session& s, const Arguments& a) { return with_kind(s, "export", a); }));
 }
 
-}  // namespace ridgeline::client
+}  // namespace ridgeline::command

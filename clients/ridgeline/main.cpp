@@ -1,5 +1,6 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <csignal>
 #include <memory>
@@ -7,7 +8,7 @@
 #include "clients/ridgeline/commands.hpp"
 #include "clients/ridgeline/files.hpp"
 
-namespace ridgeline::client {
+namespace ridgeline::command {
 namespace {
 
 void add_options(CLI::App& app, Options& options) {
@@ -85,7 +86,7 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace ridgeline::client
+}  // namespace ridgeline::command
 
 int main(int argc, char** argv) {
   return ridgeline::client::run(argc, argv);

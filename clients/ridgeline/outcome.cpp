@@ -2,7 +2,7 @@
 
 #include <optional>
 
-namespace ridgeline::client {
+namespace ridgeline::command {
 namespace {
 
 ExitStatus status_of_error(ErrorCode code) {
@@ -46,4 +46,4 @@ Outcome unusable(const Error& error) {
   return {ExitStatus::Usage, jobs::to_json(jobs::refusal(error)), error.what()};
 }
 
-}  // namespace ridgeline::client
+}  // namespace ridgeline::command

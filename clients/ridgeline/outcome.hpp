@@ -5,7 +5,7 @@
 #include "core/base/error.hpp"
 #include "jobs/answer.hpp"
 
-namespace ridgeline::client {
+namespace ridgeline::command {
 
 /// Exit status of the command line: a contract with scripts.
 enum class ExitStatus {
@@ -30,4 +30,4 @@ Outcome outcome_of(const jobs::Answer& answer, const std::string& format);
 /// The outcome of a file that cannot be used, or of text in it that is not JSON.
 Outcome unusable(const Error& error);
 
-}  // namespace ridgeline::client
+}  // namespace ridgeline::command

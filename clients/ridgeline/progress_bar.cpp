@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace ridgeline::client {
+namespace ridgeline::command {
 namespace {
 
 constexpr auto patience = std::chrono::seconds(1);
@@ -37,4 +37,4 @@ void ProgressBar::show(double fraction, std::string_view stage) {
   std::fflush(stderr);
 }
 
-}  // namespace ridgeline::client
+}  // namespace ridgeline::command

@@ -4,7 +4,7 @@
 #include <mutex>
 #include <string_view>
 
-namespace ridgeline::client {
+namespace ridgeline::command {
 
 /// A line on standard error that shows how far a job is, once it has taken a second; nothing when
 /// standard error is no terminal. May be told from any thread.
@@ -26,4 +26,4 @@ private:
   Clock::time_point next_;
 };
 
-}  // namespace ridgeline::client
+}  // namespace ridgeline::command

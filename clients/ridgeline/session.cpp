@@ -11,7 +11,7 @@
 #include "service/library.hpp"
 #include "service/library_job.hpp"
 
-namespace ridgeline::client {
+namespace ridgeline::command {
 namespace {
 
 /// Requests a stop when the time is up.
@@ -95,4 +95,4 @@ jobs::Answer Session::ask(const std::string& job, const std::string& format) con
   return compute(job, format);
 }
 
-}  // namespace ridgeline::client
+}  // namespace ridgeline::command

@@ -6,7 +6,7 @@
 #include "clients/ridgeline/interrupt.hpp"
 #include "jobs/answer.hpp"
 
-namespace ridgeline::client {
+namespace ridgeline::command {
 
 /// Where and how the command line asks: the options before and after every command.
 struct Options {
@@ -35,4 +35,4 @@ private:
   const Interrupt& interrupt_;
 };
 
-}  // namespace ridgeline::client
+}  // namespace ridgeline::command
