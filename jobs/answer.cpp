@@ -18,10 +18,13 @@ struct Kind {
   std::span<const std::string_view> formats;
 };
 
-/// Every kind of job. A new one is one line here and one function in kinds.hpp.
 constexpr std::array<std::string_view, 4> predict_formats{"json", "csv", "svg", "nc"};
+constexpr std::array<std::string_view, 1> json_only{"json"};
+
+/// Every kind of job. A new one is one line here and one function in kinds.hpp.
 constexpr std::array kinds{
     Kind{"predict", predict, predict_formats},
+    Kind{"verify", verify, json_only},
 };
 
 const Kind& kind_of(const nlohmann::json& document) {

@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -64,9 +65,10 @@ Measured measure_best(const ChamferJob& job, const nc::Reading& reading, const P
   Measured measured = measure(job, reading.motion, axis);
   measured.failed.insert(
       measured.failed.begin(),
-      {Error(ErrorCode::VerificationFailed,
-             "the program's tool axis is " + details.value + ", must be " + details.limit, details),
-       std::nullopt});
+      Failure{Error(ErrorCode::VerificationFailed,
+                    "the program's tool axis is " + details.value + ", must be " + details.limit,
+                    details),
+              std::nullopt});
   return measured;
 }
 

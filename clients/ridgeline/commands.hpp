@@ -24,6 +24,12 @@ void add_job_commands(CLI::App& app, Selected& selected);
 /// library put, get, list, ...
 void add_library_commands(CLI::App& app, Selected& selected);
 
+/// status: the live instances of the service.
+void add_status_command(CLI::App& app, Selected& selected);
+
+/// batch: many jobs, over all the instances there are.
+void add_batch_command(CLI::App& app, Selected& selected);
+
 /// Reads a file that is to hold one JSON document. Throws Error{BadFile} or Error{BadInput}.
 nlohmann::json read_document(const std::string& path);
 

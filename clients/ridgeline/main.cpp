@@ -34,14 +34,6 @@ void set_up_diagnostics(const Options& options) {
   spdlog::set_default_logger(logger);
 }
 
-Outcome run(const Selected& selected, const Session& session) {
-  try {
-    return selected.run(session);
-  } catch (const Error& error) {
-    return unusable(error);
-  }
-}
-
 /// Writes the outcome: a result where it was asked for, anything else to standard output.
 ExitStatus deliver(const Outcome& outcome, const std::string& output) {
   try {
@@ -75,6 +67,8 @@ int run(int argc, char** argv) {
   add_options(app, options);
   add_job_commands(app, selected);
   add_library_commands(app, selected);
+  add_batch_command(app, selected);
+  add_status_command(app, selected);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -82,12 +76,12 @@ int run(int argc, char** argv) {
   }
   set_up_diagnostics(options);
   const Session session(options, interrupt);
-  return static_cast<int>(deliver(run(selected, session), selected.output));
+  return static_cast<int>(deliver(attempt([&] { return selected.run(session); }), selected.output));
 }
 
 }  // namespace
 }  // namespace ridgeline::command
 
 int main(int argc, char** argv) {
-  return ridgeline::client::run(argc, argv);
+  return ridgeline::command::run(argc, argv);
 }

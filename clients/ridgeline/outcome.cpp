@@ -46,4 +46,14 @@ Outcome unusable(const Error& error) {
   return {ExitStatus::Usage, jobs::to_json(jobs::refusal(error)), error.what()};
 }
 
+Outcome attempt(const std::function<Outcome()>& run) {
+  try {
+    return run();
+  } catch (const Error& error) {
+    return unusable(error);
+  } catch (const std::exception& error) {
+    return outcome_of(jobs::refusal(Error(ErrorCode::Internal, error.what())), "json");
+  }
+}
+
 }  // namespace ridgeline::command

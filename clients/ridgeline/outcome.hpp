@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "core/base/error.hpp"
@@ -29,5 +30,8 @@ Outcome outcome_of(const jobs::Answer& answer, const std::string& format);
 
 /// The outcome of a file that cannot be used, or of text in it that is not JSON.
 Outcome unusable(const Error& error);
+
+/// Runs what may throw: an Error of its own files is unusable(), anything else an internal error.
+Outcome attempt(const std::function<Outcome()>& run);
 
 }  // namespace ridgeline::command

@@ -6,8 +6,11 @@
 #include <mutex>
 #include <thread>
 
+#include "clients/client.hpp"
 #include "clients/ridgeline/progress_bar.hpp"
+#include "core/base/text.hpp"
 #include "jobs/parse.hpp"
+#include "service/job_kind.hpp"
 #include "service/library.hpp"
 #include "service/library_job.hpp"
 
@@ -74,25 +77,78 @@ jobs::Answer answer(const Options& options, const std::string& job, const std::s
 
 }  // namespace
 
-jobs::Answer Session::compute(const std::string& job, const std::string& format) const {
+std::chrono::milliseconds milliseconds(double seconds) {
+  return std::chrono::ceil<std::chrono::milliseconds>(std::chrono::duration<double>(seconds));
+}
+
+Session::Session(const Options& options, const Interrupt& interrupt)
+    : options_(options), interrupt_(interrupt) {}
+
+Session::~Session() = default;
+
+client::Client& Session::client() const {
+  const std::lock_guard lock(mutex_);
+  if (!client_) {
+    client::Options options;
+    options.domain = static_cast<unsigned>(options_.domain);
+    client_ = std::make_unique<client::Client>(options);
+  }
+  return *client_;
+}
+
+jobs::Answer Session::compute(const std::string& job, const std::string& format,
+                              const Listener& listener) const {
   std::stop_source stop;
   const std::stop_callback forward(interrupt_.token(), [&stop] { stop.request_stop(); });
   const Deadline deadline(options_.timeout, stop);
-  ProgressBar bar(options_.quiet ? ProgressBar::Mode::Off : ProgressBar::Mode::Automatic);
   Progress progress;
-  progress.report = [&bar](double fraction, std::string_view stage) { bar.show(fraction, stage); };
+  progress.report = listener;
   progress.stop = stop.get_token();
   const jobs::Answer result = answer(options_, job, format, progress);
   const bool is_cancelled = jobs::is_error(result) &&
                             result.document.at("error").at("code") == name(ErrorCode::Cancelled);
   if (!is_cancelled || !deadline.has_passed() || interrupt_.is_interrupted()) return result;
   ErrorDetails details;
-  details.limit = std::to_string(*options_.timeout) + " s";
+  details.limit = text(*options_.timeout, "s");
   return jobs::refusal(Error(ErrorCode::Timeout, "no answer within " + details.limit, details));
 }
 
+jobs::Answer Session::send(const std::string& job, const std::string& format,
+                           const Listener& listener) const {
+  try {
+    client::Patience patience;
+    if (options_.timeout) patience.timeout = milliseconds(*options_.timeout);
+    patience.progress = [&listener](const client::ProgressReport& report) {
+      listener(report.fraction, report.stage);
+    };
+    patience.stop = interrupt_.token();
+    return client().ask(job, format, patience);
+  } catch (const Error& error) {
+    return jobs::refusal(error);
+  }
+}
+
+jobs::Answer Session::ask(const std::string& job, const std::string& format,
+                          const Listener& listener) const {
+  return options_.local ? compute(job, format, listener) : send(job, format, listener);
+}
+
 jobs::Answer Session::ask(const std::string& job, const std::string& format) const {
-  return compute(job, format);
+  ProgressBar bar(options_.quiet ? ProgressBar::Mode::Off : ProgressBar::Mode::Automatic);
+  return ask(job, format,
+             [&bar](double fraction, std::string_view stage) { bar.show(fraction, stage); });
+}
+
+std::vector<wire::InstanceStatus> Session::status() const {
+  constexpr double usual_wait = 3;
+  const double wait = options_.timeout.value_or(usual_wait);
+  std::vector<wire::InstanceStatus> statuses = client().status(milliseconds(wait));
+  if (!statuses.empty()) return statuses;
+  ErrorDetails details;
+  details.value = "domain " + std::to_string(options_.domain);
+  details.limit = "a running ridgelined within " + text(wait, "s");
+  throw Error(ErrorCode::NoService, "no instance of the service answers in " + details.value,
+              details);
 }
 
 }  // namespace ridgeline::command
