@@ -20,9 +20,11 @@ struct Kind {
 
 constexpr std::array<std::string_view, 4> predict_formats{"json", "csv", "svg", "nc"};
 constexpr std::array<std::string_view, 1> json_only{"json"};
+constexpr std::array<std::string_view, 5> chamfer_formats{"json", "nc", "cl", "csv", "svg"};
 
 /// Every kind of job. A new one is one line here and one function in kinds.hpp.
 constexpr std::array kinds{
+    Kind{"chamfer", chamfer, chamfer_formats},
     Kind{"predict", predict, predict_formats},
     Kind{"verify", verify, json_only},
 };
