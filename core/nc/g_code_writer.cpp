@@ -45,13 +45,18 @@ public:
         blocks_("N", program.block_number_step, program.block_number_step.value_or(0)) {}
 
   std::string run() {
-    head();
-    prepare();
+    if (is_inline()) {
+      for (const std::string& line : head_comments(program_)) comment(line);
+      blocks_.block(plane_ + (dialect_ == Dialect::Fanuc ? " G21 G90 G94" : " G21 G90 G91.1 G94"));
+    } else {
+      head();
+      prepare();
+    }
     approach();
     if (program_.positioning == Positioning::Incremental) blocks_.block("G91");
     for (const Step& step : plan_.steps) motion(step);
     if (program_.positioning == Positioning::Incremental) blocks_.block("G90");
-    end();
+    if (!is_inline()) end();
     return blocks_.take();
   }
 
@@ -62,8 +67,10 @@ private:
   bool follows_tool() const {
     return is_tilted(program_) && program_.tilted == TiltedOutput::WorkFrame;
   }
+  bool is_inline() const { return program_.kind == ProgramKind::Inline; }
   bool is_main() const { return program_.kind == ProgramKind::Main; }
   int offset() const {
+    if (is_inline()) return 0;
     return program_.length_offset != 0 ? program_.length_offset : program_.tool_number;
   }
   std::string number(std::int64_t value, int decimals) const {
@@ -189,8 +196,8 @@ private:
       const std::string along = axis_word(axis_, plan_.start[axis_]);
       blocks_.block(with_length ? (from_below ? "G44 " : "G43 ") + along + length : along);
     }
-    if (program_.coolant == Coolant::Flood) blocks_.block("M8");
-    if (program_.coolant == Coolant::Mist) blocks_.block("M7");
+    if (!is_inline() && program_.coolant == Coolant::Flood) blocks_.block("M8");
+    if (!is_inline() && program_.coolant == Coolant::Mist) blocks_.block("M7");
     at_ = plan_.start;
     motion_ = "G0";
   }

@@ -11,7 +11,9 @@ namespace ridgeline::nc {
 
 enum class Dialect { Fanuc, Siemens, Heidenhain, LinuxCnc };
 enum class Positioning { Absolute, Incremental };
-enum class ProgramKind { Main, Subprogram };
+/// Inline: comments and motion alone, to stand within another program of FANUC or LinuxCNC, which
+/// has the tool, its length, the work offset, spindle and coolant.
+enum class ProgramKind { Main, Subprogram, Inline };
 enum class Coolant { None, Flood, Mist };
 
 /// What a tool axis that is not a machine axis gives: the control's tilted work plane, or

@@ -88,6 +88,12 @@ void validate(const Program& program) {
   if (!(std::abs(length - 1) <= 1e-6)) {
     refuse("/tool_axis", "of length " + std::to_string(length), "a unit vector");
   }
+  const bool has_inline = program.dialect == Dialect::Fanuc || program.dialect == Dialect::LinuxCnc;
+  if (program.kind == ProgramKind::Inline && (is_tilted(program) || !has_inline)) {
+    throw Error(ErrorCode::Unsupported,
+                "motion within another program is for FANUC and LinuxCNC with a machine axis",
+                {"/output/kind", "inline", "", std::nullopt, std::nullopt});
+  }
   const bool in_plane = is_tilted(program) && program.tilted == TiltedOutput::WorkPlane;
   if (in_plane && program.dialect == Dialect::LinuxCnc) {
     throw Error(ErrorCode::Unsupported,
