@@ -191,11 +191,19 @@ jobs::Answer Client::Session::ask(const Call& call, Channel channel, const std::
   ++id_.number;
   pending->id = id_;
   pending_.emplace(pending->id, pending);
+  lock.unlock();
   std::optional<jobs::Answer> answer;
   try {
+    open();
+    lock.lock();
     answer = wait(lock, *pending, call, channel, format, patience);
   } catch (const Error& error) {
     answer = jobs::refusal(error);
+  } catch (const dds::Failure& failure) {
+    const bool is_forbidden = failure.code() == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY;
+    answer = jobs::refusal(
+        {is_forbidden ? ErrorCode::Unsupported : ErrorCode::Internal,
+         is_forbidden ? "the permissions of this client do not allow it" : failure.what()});
   } catch (const std::exception& error) {
     answer = jobs::refusal({ErrorCode::Internal, error.what()});
   }

@@ -7,7 +7,7 @@
 
 namespace ridgeline::client {
 
-Client::Client(const Options& options) {
+Client::Client(const ClientOptions& options) {
   try {
     session_ = std::make_unique<Session>(options);
   } catch (const dds::Failure& failure) {
@@ -31,7 +31,7 @@ jobs::Answer Client::ask(std::string_view job, std::string_view format,
   const std::string text(job);
   if (text.find('\0') != text.npos)
     return jobs::refusal({ErrorCode::BadInput, "the job holds a zero byte: it is not JSON"});
-  const Channel channel = service::is_change(job) ? Channel::Change : Channel::Compute;
+  const Channel channel = service::asks_for_change(job) ? Channel::Change : Channel::Compute;
   return session_->ask(wire::Call{wire::CallKind::Job, text.c_str()}, channel, std::string(format),
                        patience);
 }

@@ -14,14 +14,17 @@ dds::Entity writer(const dds::Entity& participant, const dds::Entity& publisher,
 
 }  // namespace
 
-Instance::Instance(const dds::Entity& participant, wire::InstanceStatus first)
-    : status(std::move(first)), participant_(participant) {
-  const dds::Qos qos(dds_create_qos());
-  dds::set_partition(qos, dds::instance_partition(status.name));
-  publisher_ = {dds_create_publisher(participant.get(), qos.get(), nullptr),
-                "dds_create_publisher"};
-  compute_.writer = writer(participant, publisher_, dds::Topic::Request);
-  cancel_writer_ = writer(participant, publisher_, dds::Topic::Cancel);
+void Instance::open(Way& way, Channel channel) {
+  const std::scoped_lock lock(mutex_);
+  if (!publisher_) {
+    const dds::Qos qos(dds_create_qos());
+    dds::set_partition(qos, dds::instance_partition(status.name));
+    publisher_ = {dds_create_publisher(participant_.get(), qos.get(), nullptr),
+                  "dds_create_publisher"};
+  }
+  if (!cancel_writer_) cancel_writer_ = writer(participant_, publisher_, dds::Topic::Cancel);
+  way.writer = writer(participant_, publisher_,
+                      channel == Channel::Compute ? dds::Topic::Request : dds::Topic::Change);
 }
 
 Instance::Way& Instance::way(Channel channel) {
@@ -32,7 +35,7 @@ bool Instance::is_ready(Channel channel, const dds::Entity& reply_reader) {
   Way& way = this->way(channel);
   const std::scoped_lock lock(way.mutex);
   if (way.is_ready) return true;
-  if (!way.writer) way.writer = writer(participant_, publisher_, dds::Topic::Change);
+  if (!way.writer) open(way, channel);
   const auto there = dds::matched_readers(way.writer);
   const auto back = dds::matched_writers(reply_reader);
   const auto same = [](const dds_guid_t& a, const dds_guid_t& b) {

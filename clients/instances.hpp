@@ -13,10 +13,12 @@ namespace ridgeline::client {
 
 enum class Channel { Compute, Change };
 
-/// One run of an instance, as a client sees it, with the writers into its partition.
+/// One run of an instance, as a client sees it, with the writers into its partition. They are made
+/// when they are first needed: who only looks at the status need not be allowed to write.
 class Instance {
 public:
-  Instance(const dds::Entity& participant, wire::InstanceStatus status);
+  Instance(const dds::Entity& participant, wire::InstanceStatus first)
+      : status(std::move(first)), participant_(participant) {}
 
   /// Can a request leave and its reply come back: is each end matched with the other's?
   bool is_ready(Channel channel, const dds::Entity& reply_reader);
@@ -39,9 +41,11 @@ private:
     bool is_ready = false;
     std::chrono::milliseconds life{0};
   };
+  void open(Way& way, Channel channel);
   Way& way(Channel channel);
 
   const dds::Entity& participant_;
+  std::mutex mutex_;  ///< making the publisher and the writer of cancels
   dds::Entity publisher_;
   Way compute_, change_;
   dds::Entity cancel_writer_;

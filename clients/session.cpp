@@ -23,7 +23,7 @@ std::string unique_name(const dds::Entity& participant) {
 }
 
 /// Options, the environment, or what is unique.
-std::string name_of(const Options& options, const dds::Entity& participant) {
+std::string name_of(const ClientOptions& options, const dds::Entity& participant) {
   const char* variable = std::getenv("RIDGELINE_CLIENT");
   std::string name = options.name;
   if (name.empty() && variable != nullptr) name = variable;
@@ -41,20 +41,17 @@ dds::Entity subscriber(const dds::Entity& participant, const std::string& client
 
 }  // namespace
 
-Client::Session::Session(const Options& options)
+Client::Session::Session(const ClientOptions& options)
     : options_(options),
       domain_(dds::Domain::open(options.domain)),
       participant_(domain_->participant()),
       name_(name_of(options, participant_)),
       last_live_(Clock::now()),
-      subscriber_(subscriber(participant_, name_)),
       instance_reader_(
           dds_create_reader(participant_.get(),
                             dds::create_topic(participant_, dds::Topic::Instance).get(),
                             dds::qos(dds::Topic::Instance).get(), nullptr),
           "dds_create_reader"),
-      reply_reader_(reader(dds::Topic::Reply, &Session::on_replies)),
-      progress_reader_(reader(dds::Topic::Progress, &Session::on_progress)),
       stop_(dds_create_guardcondition(participant_.get()), "dds_create_guardcondition"),
       waitset_(dds_create_waitset(participant_.get()), "dds_create_waitset") {
   dds::check(dds_set_status_mask(instance_reader_.get(), DDS_DATA_AVAILABLE_STATUS),
@@ -62,7 +59,7 @@ Client::Session::Session(const Options& options)
   dds::check(dds_waitset_attach(waitset_.get(), instance_reader_.get(), 0), "dds_waitset_attach");
   dds::check(dds_waitset_attach(waitset_.get(), stop_.get(), 0), "dds_waitset_attach");
   dds_guid_t guid;
-  dds::check(dds_get_guid(reply_reader_.get(), &guid), "dds_get_guid");
+  dds::check(dds_get_guid(participant_.get(), &guid), "dds_get_guid");
   std::copy_n(guid.v, sizeof guid.v, id_.writer.begin());
   watcher_ = std::thread([this] { watch(); });
 }
@@ -72,6 +69,15 @@ Client::Session::~Session() {
   watcher_.join();
   progress_reader_ = {};  // no listener runs any more when these are gone
   reply_reader_ = {};
+}
+
+/// Makes what replies come by, when it is first needed.
+void Client::Session::open() {
+  std::call_once(opened_, [this] {
+    subscriber_ = subscriber(participant_, name_);
+    reply_reader_ = reader(dds::Topic::Reply, &Session::on_replies);
+    progress_reader_ = reader(dds::Topic::Progress, &Session::on_progress);
+  });
 }
 
 dds::Entity Client::Session::reader(dds::Topic topic, dds_on_data_available_fn on_data) {

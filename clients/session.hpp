@@ -25,7 +25,7 @@ using Call = std::variant<wire::Call, const ridgeline_wire_Chamfer*>;
 /// Entities, instances and requests under way of one client.
 class Client::Session {
 public:
-  explicit Session(const Options& options);
+  explicit Session(const ClientOptions& options);
   ~Session();
 
   jobs::Answer ask(const Call& call, Channel channel, const std::string& format,
@@ -50,6 +50,7 @@ private:
   static void on_replies(dds_entity_t reader, void* session) noexcept;
   static void on_progress(dds_entity_t reader, void* session) noexcept;
   void take_reply(const ridgeline_wire_Reply& sample, const dds_sample_info_t& info);
+  void open();
   dds::Entity reader(dds::Topic topic, dds_on_data_available_fn on_data);
   void watch();
   void take_instances();
@@ -67,7 +68,7 @@ private:
   jobs::Answer cancelled(Lock& lock, Pending& pending);
   Error absent(const Pending& pending) const;
 
-  Options options_;
+  ClientOptions options_;
   std::shared_ptr<const dds::Domain> domain_;
   dds::Entity participant_;
   std::string name_;
@@ -81,8 +82,9 @@ private:
   Clock::time_point last_live_;
   bool has_seen_any_ = false;
 
-  dds::Entity subscriber_;
   dds::Entity instance_reader_;
+  std::once_flag opened_;  ///< the next three
+  dds::Entity subscriber_;
   dds::Entity reply_reader_;
   dds::Entity progress_reader_;
   dds::Entity stop_;

@@ -77,7 +77,7 @@ bool is_change(const Json& document) {
   return text_of(document, "job") == "service" && operation == "log_level";
 }
 
-bool is_change(std::string_view document) {
+bool asks_for_change(std::string_view document) {
   const std::string kind = job_kind(document);
   if (kind != "library" && kind != "service") return false;
   try {

@@ -12,6 +12,6 @@ std::string job_kind(std::string_view document);
 /// Does a job change the library or the service? Such jobs go by the topic ridgeline/change, so
 /// that access control can tell who may.
 bool is_change(const nlohmann::json& document);
-bool is_change(std::string_view document);
+bool asks_for_change(std::string_view document);
 
 }  // namespace ridgeline::service

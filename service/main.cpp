@@ -60,6 +60,13 @@ void declare(CLI::App& app, Options& options) {
       "cancels that too.");
 }
 
+/// What the middleware has to say, as a log line like all others.
+void log_dds(void*, const dds_log_data_t* line) {
+  std::string message(line->message, line->size);
+  while (!message.empty() && message.back() == '\n') message.pop_back();
+  service::log::event(service::log::Level::Warning, "dds", {{"message", message}});
+}
+
 int check(const Options& options) {
   int status = EXIT_SUCCESS;
   const auto report = [&](const char* what, auto&& look) {
@@ -138,6 +145,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? EXIT_SUCCESS : 2;
   }
   service::log::set_level(options.log_level);
+  if (!options.is_check) dds_set_log_sink(&log_dds, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
   sigset_t set;
   sigemptyset(&set);
