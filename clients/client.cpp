@@ -7,7 +7,7 @@
 
 namespace ridgeline::client {
 
-Client::Client(const ClientOptions& options) {
+Client::Client(const Options& options) {
   try {
     session_ = std::make_unique<Session>(options);
   } catch (const dds::Failure& failure) {

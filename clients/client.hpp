@@ -16,7 +16,7 @@ struct ridgeline_wire_Chamfer;
 
 namespace ridgeline::client {
 
-struct ClientOptions {
+struct Options {
   unsigned domain = 0;
   std::string instance;  ///< ask this one alone; empty: the least loaded
   std::string name;      ///< partition of the replies; empty: $RIDGELINE_CLIENT, or a unique one
@@ -45,7 +45,7 @@ struct Patience {
 class Client {
 public:
   /// Throws Error{NoService} when the DDS domain cannot be entered.
-  explicit Client(const ClientOptions& options = {});
+  explicit Client(const Options& options = {});
   ~Client();
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;

@@ -23,7 +23,7 @@ std::string unique_name(const dds::Entity& participant) {
 }
 
 /// Options, the environment, or what is unique.
-std::string name_of(const ClientOptions& options, const dds::Entity& participant) {
+std::string name_of(const Options& options, const dds::Entity& participant) {
   const char* variable = std::getenv("RIDGELINE_CLIENT");
   std::string name = options.name;
   if (name.empty() && variable != nullptr) name = variable;
@@ -41,7 +41,7 @@ dds::Entity subscriber(const dds::Entity& participant, const std::string& client
 
 }  // namespace
 
-Client::Session::Session(const ClientOptions& options)
+Client::Session::Session(const Options& options)
     : options_(options),
       domain_(dds::Domain::open(options.domain)),
       participant_(domain_->participant()),

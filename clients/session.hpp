@@ -25,7 +25,7 @@ using Call = std::variant<wire::Call, const ridgeline_wire_Chamfer*>;
 /// Entities, instances and requests under way of one client.
 class Client::Session {
 public:
-  explicit Session(const ClientOptions& options);
+  explicit Session(const Options& options);
   ~Session();
 
   jobs::Answer ask(const Call& call, Channel channel, const std::string& format,
@@ -68,7 +68,7 @@ private:
   jobs::Answer cancelled(Lock& lock, Pending& pending);
   Error absent(const Pending& pending) const;
 
-  ClientOptions options_;
+  Options options_;
   std::shared_ptr<const dds::Domain> domain_;
   dds::Entity participant_;
   std::string name_;

@@ -78,8 +78,8 @@ std::unique_ptr<Process> Loopback::start(const std::string& name, std::vector<st
                                    folder_ / (name + ".log"));
 }
 
-client::ClientOptions Loopback::options() const {
-  client::ClientOptions options;
+client::Options Loopback::options() const {
+  client::Options options;
   options.domain = domain_;
   return options;
 }

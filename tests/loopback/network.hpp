@@ -44,7 +44,7 @@ protected:
                                           std::vector<std::string> more = {}) const;
   /// Starts ridgelined as instance `name` with a library of its own, kept over restarts.
   std::unique_ptr<Process> start(const std::string& name, std::vector<std::string> more = {});
-  client::ClientOptions options() const;
+  client::Options options() const;
   /// The log lines of an instance with that event.
   std::vector<nlohmann::json> events(const std::string& name, const std::string& event) const;
   /// Waits until a condition holds.

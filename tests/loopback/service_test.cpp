@@ -36,7 +36,7 @@ TEST_F(Loopback, WithoutAServiceTheClientSaysSoInTime) {
 }
 
 TEST_F(Loopback, AClientThatIsThereFirstIsAnswered) {
-  client::ClientOptions patient = options();
+  client::Options patient = options();
   patient.discovery = 20s;
   Client client(patient);
   std::string text;
@@ -237,7 +237,7 @@ TEST_F(Loopback, ARequestOutlivesTheRestartOfTheOnlyInstance) {
 
 TEST_F(Loopback, ALostInstanceIsNamedWithinTheAbsence) {
   auto service = start("north");
-  client::ClientOptions impatient = options();
+  client::Options impatient = options();
   impatient.absence = 500ms;
   Client client(impatient);
   ASSERT_EQ(code(client.echo("x")), "ok");
@@ -361,7 +361,7 @@ TEST_F(Loopback, NonsenseOnTheWireDoesNotHurt) {
 TEST_F(Loopback, TheLibraryIsSharedByAllInstances) {
   auto north = start("north");
   auto south = start("south");
-  client::ClientOptions to_north = options(), to_south = options(), to_west = options();
+  client::Options to_north = options(), to_south = options(), to_west = options();
   to_north.instance = "north";
   to_south.instance = "south";
   to_west.instance = "west";
