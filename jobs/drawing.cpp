@@ -185,7 +185,7 @@ std::string chamfer_drawing(const chamfer::Job& job, const geometry::Edge& edge,
   const double f = -across.in(job.workpiece.position).x();
   const double half = 1.12 * extent(job.workpiece) + std::abs(f) / 2;
 
-  Svg svg(980, 760, fmt::format("Chamfer of hole {} in {}", job.hole, job.workpiece.name));
+  Svg svg(1060, 760, fmt::format("Chamfer of hole {} in {}", job.hole, job.workpiece.name));
   svg.text({20, 24}, "Section across the bore axis A1, through A2", "title");
   const View across_view = view_of({-f / 2, 0}, half, {20, 34}, {380, 394});
   draw_part(svg, across_view, across, job, result);
@@ -194,7 +194,7 @@ std::string chamfer_drawing(const chamfer::Job& job, const geometry::Edge& edge,
   svg.text({410, 24}, "Section along A1, through A2", "title");
   draw_part(svg, view_of({0, 0}, half, {410, 34}, {770, 394}), along, job, result);
 
-  svg.text({20, 420}, "Seen along A2: ridge line and path of the tool centre", "title");
+  svg.text({20, 420}, "Seen along A2: ridge and tool centre", "title");
   const Vector2d reach = geometry::half_extents(edge.profile);
   const View above_view = view_of(above.in(origin), 1.25 * reach.maxCoeff(), {20, 432}, {380, 740});
   svg.polyline(above_view, projected(above, result.targets), "ridge");

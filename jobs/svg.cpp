@@ -14,26 +14,38 @@ namespace {
 
 using Eigen::Vector2d;
 
+// Plain values, no CSS variables: other programs than browsers read these files too.
 constexpr std::string_view style_sheet = R"(
-  :root { --ink: #1b1f24; --paper: #ffffff; --soft: #8a929c; --body: #d9dee5; --cut: #c2410c;
-          --path: #1d4ed8; --tool: #0f766e; }
-  @media (prefers-color-scheme: dark) {
-    :root { --ink: #e6e9ee; --paper: #14171b; --soft: #7d8691; --body: #2d343d; --cut: #fb923c;
-            --path: #7aa2ff; --tool: #5eead4; } }
-  text { font: 13px system-ui, sans-serif; fill: var(--ink); }
-  .title { font-size: 15px; font-weight: 600; } .small { font-size: 11px; fill: var(--soft); }
+  text { font: 13px system-ui, sans-serif; fill: #1b1f24; }
+  .title { font-size: 15px; font-weight: 600; }
+  .small { font-size: 11px; fill: #8a929c; }
   .symbol { font-style: italic; font-weight: 600; }
-  .sheet { fill: var(--paper); } .body { fill: var(--body); stroke: var(--ink); stroke-width: 1.2; }
-  .air { fill: var(--paper); stroke: var(--ink); stroke-width: 1.2; }
-  .outline { fill: none; stroke: var(--ink); stroke-width: 1.2; }
-  .hidden { fill: none; stroke: var(--ink); stroke-width: 0.9; stroke-dasharray: 5 3; }
-  .axis { fill: none; stroke: var(--soft); stroke-width: 0.8; stroke-dasharray: 12 3 2 3; }
-  .dimension { fill: none; stroke: var(--soft); stroke-width: 0.9; }
-  .ridge { fill: none; stroke: var(--cut); stroke-width: 2; }
-  .path { fill: none; stroke: var(--path); stroke-width: 1.6; }
-  .band { fill: var(--cut); fill-opacity: 0.35; stroke: var(--cut); stroke-width: 1.4; }
-  .tool { fill: var(--tool); fill-opacity: 0.18; stroke: var(--tool); stroke-width: 1.4; }
-  .grid { stroke: var(--soft); stroke-width: 0.4; } .frame { fill: none; stroke: var(--soft); }
+  .sheet { fill: #ffffff; }
+  .body { stroke-width: 1.2; fill: #d9dee5; stroke: #1b1f24; }
+  .air { stroke-width: 1.2; fill: #ffffff; stroke: #1b1f24; }
+  .outline { fill: none; stroke-width: 1.2; stroke: #1b1f24; }
+  .axis { fill: none; stroke-width: 0.8; stroke-dasharray: 12 3 2 3; stroke: #8a929c; }
+  .dimension { fill: none; stroke-width: 0.9; stroke: #8a929c; }
+  .ridge { fill: none; stroke-width: 2; stroke: #c2410c; }
+  .path { fill: none; stroke-width: 1.6; stroke: #1d4ed8; }
+  .band { fill-opacity: 0.35; stroke-width: 1.4; fill: #c2410c; stroke: #c2410c; }
+  .tool { fill-opacity: 0.18; stroke-width: 1.4; fill: #0f766e; stroke: #0f766e; }
+  .grid { stroke-width: 0.4; stroke: #8a929c; }
+  @media (prefers-color-scheme: dark) {
+    text { fill: #e6e9ee; }
+    .small { fill: #7d8691; }
+    .sheet { fill: #14171b; }
+    .body { fill: #2d343d; stroke: #e6e9ee; }
+    .air { fill: #14171b; stroke: #e6e9ee; }
+    .outline { stroke: #e6e9ee; }
+    .axis { stroke: #7d8691; }
+    .dimension { stroke: #7d8691; }
+    .ridge { stroke: #fb923c; }
+    .path { stroke: #7aa2ff; }
+    .band { fill: #fb923c; stroke: #fb923c; }
+    .tool { fill: #5eead4; stroke: #5eead4; }
+    .grid { stroke: #7d8691; }
+  }
 )";
 
 std::string escaped(std::string_view text) {
