@@ -7,10 +7,16 @@
 namespace ridgeline::jobs {
 namespace {
 
+/// For people: digits beyond are noise.
+double to_nanometre(double length) {
+  constexpr double steps = 1e6;
+  return std::round(length * steps) / steps;
+}
+
 Failure failure(ErrorCode code, const std::string& what, double value, const std::string& limit,
                 const std::optional<verify::Place>& place) {
   ErrorDetails details;
-  details.value = text(value) + " mm";
+  details.value = text(to_nanometre(value)) + " mm";
   details.limit = limit;
   if (place) details.target = place->point;
   const std::string message = what + " is " + details.value + ", must be " + limit;
@@ -20,7 +26,7 @@ Failure failure(ErrorCode code, const std::string& what, double value, const std
 
 Failure width_failure(const std::string& what, double value, double u, const std::string& limit) {
   ErrorDetails details;
-  details.value = text(value) + " mm";
+  details.value = text(to_nanometre(value)) + " mm";
   details.limit = limit;
   details.parameter = u;
   const std::string message = what + " is " + details.value + ", must be " + limit;

@@ -24,7 +24,8 @@ double wrapped(double u) {
 
 void require(const Sampling& sampling) {
   if (!(sampling.tolerance >= least_tolerance && std::isfinite(sampling.tolerance))) {
-    throw Error(ErrorCode::BadInput,
+    const bool is_small = sampling.tolerance > 0 && sampling.tolerance < least_tolerance;
+    throw Error(is_small ? ErrorCode::ToleranceTooSmall : ErrorCode::BadInput,
                 "tolerance " + text(sampling.tolerance, "mm") + ", at least " +
                     text(least_tolerance, "mm") + " is needed",
                 {.field = "/tolerance",

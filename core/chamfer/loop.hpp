@@ -31,8 +31,9 @@ struct Loop {
 };
 
 /// Target points with equal chord error, [0071]..[0075] (design: section 6). Throws
-/// Error: ToleranceTooSmall (more points than the limit), WidthTooLarge,
-/// SweptNotReached (with u and P in the work frame), BadInput (tolerance, points, W, D), Cancelled.
+/// Error: ToleranceTooSmall (more points than the limit, or finer than the numbers are),
+/// WidthTooLarge, SweptNotReached (with u and P in the work frame), BadInput (tolerance, points, W,
+/// D), Cancelled.
 Loop loop(const geometry::Edge& edge, const Chamfer& chamfer, const Sampling& sampling,
           const Progress& progress = {});
 

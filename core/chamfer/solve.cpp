@@ -66,6 +66,23 @@ std::vector<CutPoint> borders_of(const geometry::Edge& edge, const Chamfer& cham
   return all;
 }
 
+/// A chamfer border beyond a bound of the edge: it eats through the wall or over an end.
+void require_within_bounds(const geometry::Edge& edge, double u, const SectionPoint& point) {
+  for (const geometry::Bound& bound : edge.bounds) {
+    for (const Vector3d& G : {point.G1, point.G2}) {
+      const double inside = bound.m * geometry::signed_distance(bound.surface, G).value;
+      if (inside > 0) continue;
+      throw Error(ErrorCode::WidthTooLarge,
+                  "the chamfer runs " + text(-inside, "mm") + " past " + bound.name,
+                  {.field = "/width",
+                   .value = text((point.G1 - point.G2).norm(), "mm"),
+                   .limit = "a chamfer within " + bound.name,
+                   .parameter = u,
+                   .target = geometry::to_outer(edge.frame, point.ridge.P)});
+    }
+  }
+}
+
 class Solver {
 public:
   Solver(const Job& job, const Progress& progress)
@@ -110,6 +127,7 @@ Round Solver::round(double width) {
   Round round;
   round.points.reserve(once.points.size());
   for (std::size_t i = 0; i < once.points.size(); ++i) {
+    require_within_bounds(edge_, once.parameter[i], once.points[i]);
     round.points.push_back(in_work(edge_, once.parameter[i], once.points[i]));
   }
   return round;

@@ -69,6 +69,7 @@ TEST(Chamfer, StraightPartsOfAnElongatedHole) {
   job["workpiece"]["holes"][0] =
       Json::parse(R"({"name": "H1", "shape": "elongated", "radius": 3, "straight_along": 10})");
   job["tool"]["radius"] = 2;
+  job["tool"]["neck_radius"] = 1.2;
   job["points"] = 400;
   const Json r = result(job);
   int on_straights = 0;
