@@ -21,10 +21,6 @@ constexpr int places_looked_at = 48;       ///< of a loop, for the room of the t
 constexpr double largest_feed_ratio = 20;  ///< of the centre's speed to the contact's
 constexpr double same_place = 1e-9;        ///< [mm]
 
-Vector3d middle(const CutPoint& p) {
-  return (p.G1 + p.G2) / 2;
-}
-
 /// Away from the material and square to the travel.
 Vector3d away(const CutPoint& p, const Vector3d& travel) {
   const Vector3d k = (middle(p) - p.C).normalized();
@@ -116,7 +112,7 @@ private:
   Vector3d base_of(const Vector3d& ready) const;
   void go(MoveKind kind, const Vector3d& to, double feed);
   void cut(const Round& round);
-  void cut_to(const CutPoint& from, const CutPoint& to);
+  void cut_along(const CutBlock& block);
   void approach(const Vector3d& ready);
   void retract();
   void look(const std::vector<Round>& rounds);
@@ -190,39 +186,31 @@ Planner::Lead Planner::lead(const CutPoint& p, const Vector3d& travel,
 }
 
 /// Block by block, so that the middle of the chamfer moves at the feed.
-void Planner::cut_to(const CutPoint& from, const CutPoint& to) {
+void Planner::cut_along(const CutBlock& block) {
   double feed = job_.feed;
   if (job_.feed_at == FeedAt::Contact) {
-    const double contact = (middle(to) - middle(from)).norm();
-    const double centre = (to.C - from.C).norm();
-    feed *= std::clamp(centre / std::max(contact, same_place), 1 / largest_feed_ratio,
+    feed *= std::clamp(block.centre / std::max(block.contact, same_place), 1 / largest_feed_ratio,
                        largest_feed_ratio);
   }
-  go(MoveKind::Cut, to.C, feed);
+  go(MoveKind::Cut, block.to.C, feed);
+  if (block.arc) plan_.motion.moves.back().arc = block.arc;
 }
 
 void Planner::cut(const Round& round) {
-  const std::vector<CutPoint>& loop = round.points;
-  std::vector<CutPoint> whole = loop;
-  whole.push_back(loop.front());
-  whole.insert(whole.end(), round.overlap.begin(), round.overlap.end());
-
-  const Vector3d first_travel = (loop[1].C - loop.back().C).normalized();
-  const CutPoint& last = whole.back();
-  const Vector3d last_travel =
-      round.overlap.empty() ? first_travel : (last.C - whole[whole.size() - 2].C).normalized();
+  const CutPoint& first = round.points.front();
+  const CutPoint& last = round.blocks.back().to;
   const double slow = job_.lead_in_feed.value_or(job_.feed / 2);
 
-  const Lead in = lead(loop.front(), first_travel, loop);
+  const Lead in = lead(first, round.first_travel, round.points);
   if (plan_.motion.moves.empty()) {
     approach(in.ready);
   } else {
     go(MoveKind::Approach, in.ready, job_.feed);
   }
   for (const Vector3d& c : in.arc) go(MoveKind::LeadIn, c, slow);
-  for (std::size_t i = 1; i < whole.size(); ++i) cut_to(whole[i - 1], whole[i]);
+  for (const CutBlock& block : round.blocks) cut_along(block);
 
-  Lead out = lead(last, -last_travel, loop);
+  Lead out = lead(last, -round.last_travel, round.points);
   std::reverse(out.arc.begin(), out.arc.end());
   for (const Vector3d& c : out.arc) go(MoveKind::LeadOut, c, job_.feed);
   go(MoveKind::LeadOut, out.ready, job_.feed);

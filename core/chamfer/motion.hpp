@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,12 +15,25 @@ struct CutPoint {
   Eigen::Vector3d P, G1, G2, C;
 };
 
-/// Once round the edge, in cutting order; `overlap` goes on from the first point again, past the
-/// seam (empty: the loop ends with its first point).
-struct Round {
-  std::vector<CutPoint> points;
-  std::vector<CutPoint> overlap;
+/// A block of the cut, from the point before.
+struct CutBlock {
+  CutPoint to;
+  double contact = 0;            ///< way of the middle of the chamfer [mm]
+  double centre = 0;             ///< way of the ball centre [mm]
+  std::optional<path::Arc> arc;  ///< of the ball centre; absent: straight
 };
+
+/// Once round the edge, in cutting order.
+struct Round {
+  std::vector<CutPoint> points;  ///< the first is not repeated at the end
+  std::vector<CutBlock> blocks;  ///< from the first point round to it again, then past the seam
+  Eigen::Vector3d first_travel, last_travel;  ///< unit, of the ball centre at both ends
+};
+
+/// The middle of the chamfer.
+inline Eigen::Vector3d middle(const CutPoint& p) {
+  return (p.G1 + p.G2) / 2;
+}
 
 /// Does the round, as its points are ordered, climb? The tooth at the contact moves by omega x k,
 /// with k from the ball centre to the middle of the chamfer and omega along -tool_axis for

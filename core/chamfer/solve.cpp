@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/text.hpp"
+#include "core/chamfer/blocks.hpp"
 #include "core/chamfer/job.hpp"
 #include "core/chamfer/loop.hpp"
 #include "core/chamfer/motion.hpp"
@@ -17,7 +18,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double full_turn = 2 * std::numbers::pi;
-constexpr int border_count = 360;  ///< borders that leads are held against
+constexpr double arc_sampling = 0.01;  ///< of the tolerance, for the polyline under arcs
+constexpr int border_count = 360;      ///< borders that leads are held against
 
 double wrapped(double u) {
   const double w = u - std::floor(u);
@@ -100,8 +102,9 @@ private:
             .section_angle = job_.section_angle,
             .method = job_.method};
   }
-  Round round(double width);
-  Round oriented(const Round& round, bool reversed, double width) const;
+  std::vector<CutPoint> sampled(double width);
+  Round oriented(std::vector<CutPoint> points, bool reversed, double width,
+                 const Vector3d& tool_axis);
   std::vector<CutPoint> overlap(const std::vector<CutPoint>& loop, bool reversed,
                                 double width) const;
   MotionPlan plan_along(const Route& route, const geometry::Solid& solid);
@@ -112,25 +115,29 @@ private:
   geometry::Edge edge_;
   double start_u_;
   std::vector<double> widths_;
-  std::vector<Round> rounds_;    ///< in ascending u
-  std::vector<Round> oriented_;  ///< as cut on the way last planned
+  std::vector<std::vector<CutPoint>> loops_;  ///< of each pass, in ascending u
+  double sampling_error_ = 0;                 ///< of the loops [mm]
+  std::vector<Round> oriented_;               ///< as cut on the way last planned
   std::vector<CutPoint> borders_;
   Result result_;
 };
 
-Round Solver::round(double width) {
-  const Loop once =
-      loop(edge_, chamfer(width),
-           {.tolerance = job_.tolerance, .points = job_.points, .start_u = start_u_}, progress_);
-  result_.points_optimal = once.points_optimal;
-  result_.chord_error = once.chord_error;
-  Round round;
-  round.points.reserve(once.points.size());
+// Arcs are fitted to a finer polyline, which takes a small share of the tolerance.
+std::vector<CutPoint> Solver::sampled(double width) {
+  const double share = job_.arcs ? arc_sampling : 1;
+  const Loop once = loop(
+      edge_, chamfer(width),
+      {.tolerance = share * job_.tolerance, .points = job_.points, .start_u = start_u_}, progress_);
+  result_.points_optimal =
+      static_cast<int>(std::ceil(once.points_optimal * std::sqrt(share) - 1e-9));
+  sampling_error_ = result_.chord_error = once.chord_error;
+  std::vector<CutPoint> points;
+  points.reserve(once.points.size());
   for (std::size_t i = 0; i < once.points.size(); ++i) {
     require_within_bounds(edge_, once.parameter[i], once.points[i]);
-    round.points.push_back(in_work(edge_, once.parameter[i], once.points[i]));
+    points.push_back(in_work(edge_, once.parameter[i], once.points[i]));
   }
-  return round;
+  return points;
 }
 
 // The points of the loop again as far as the overlap goes, then a point at its very end.
@@ -152,20 +159,43 @@ std::vector<CutPoint> Solver::overlap(const std::vector<CutPoint>& loop, bool re
   return again;
 }
 
-Round Solver::oriented(const Round& round, bool reversed, double width) const {
-  Round out;
-  out.points = round.points;
-  if (reversed) std::reverse(out.points.begin() + 1, out.points.end());
-  out.overlap = overlap(out.points, reversed, width);
-  return out;
+Round Solver::oriented(std::vector<CutPoint> points, bool reversed, double width,
+                       const Vector3d& tool_axis) {
+  if (reversed) std::reverse(points.begin() + 1, points.end());
+  std::vector<CutPoint> lap = points;
+  lap.push_back(points.front());
+  std::vector<CutPoint> past = {points.front()};
+  for (const CutPoint& p : overlap(points, reversed, width)) past.push_back(p);
+
+  Round round;
+  round.first_travel = (points[1].C - points.back().C).normalized();
+  round.last_travel = past.size() == 1 ? round.first_travel
+                                       : (past.back().C - past[past.size() - 2].C).normalized();
+  if (!job_.arcs) {
+    round.points = std::move(points);
+    round.blocks = straight_blocks(lap);
+    for (CutBlock& block : straight_blocks(past)) round.blocks.push_back(std::move(block));
+    return round;
+  }
+  const double tolerance = job_.tolerance - sampling_error_;
+  const Blocks once = arc_blocks(lap, tool_axis, tolerance);
+  const Blocks again = arc_blocks(past, tool_axis, tolerance);
+  result_.chord_error = sampling_error_ + std::max(once.error, again.error);
+  round.blocks = once.blocks;
+  round.blocks.insert(round.blocks.end(), again.blocks.begin(), again.blocks.end());
+  round.points.push_back(lap.front());
+  for (std::size_t i = 0; i + 1 < once.blocks.size(); ++i) {
+    round.points.push_back(once.blocks[i].to);
+  }
+  return round;
 }
 
 MotionPlan Solver::plan_along(const Route& route, const geometry::Solid& solid) {
-  const bool climbs = is_climb(rounds_.back().points, route.tool_axis, job_.tool.spindle);
+  const bool climbs = is_climb(loops_.back(), route.tool_axis, job_.tool.spindle);
   const bool reversed = climbs != (job_.direction == Direction::Climb);
   oriented_.clear();
-  for (std::size_t i = 0; i < rounds_.size(); ++i) {
-    oriented_.push_back(oriented(rounds_[i], reversed, widths_[i]));
+  for (std::size_t i = 0; i < loops_.size(); ++i) {
+    oriented_.push_back(oriented(loops_[i], reversed, widths_[i], route.tool_axis));
   }
   const Room room(solid, job_.tool, route.tool_axis);
   return plan(job_, edge_, route, room, oriented_, borders_);
@@ -185,17 +215,20 @@ void Solver::fill(const Route& route, MotionPlan plan) {
   if (job_.control_point == ControlPoint::Centre) return;
   const Vector3d to_tip = -tool::cutting_radius(job_.tool) * route.tool_axis;
   result_.motion.start += to_tip;
-  for (path::Move& move : result_.motion.moves) move.to += to_tip;
+  for (path::Move& move : result_.motion.moves) {
+    move.to += to_tip;
+    if (move.arc) move.arc->centre += to_tip;
+  }
 }
 
 // Of the ways that the axis allows, the first with room for the whole tool; if none has, the one
 // with the most: what is in the way is measured and named afterwards.
 Result Solver::run() {
   widths_ = job_.pass_widths.empty() ? std::vector<double>{job_.width} : job_.pass_widths;
-  for (const double width : widths_) rounds_.push_back(round(width));
+  for (const double width : widths_) loops_.push_back(sampled(width));
   if (job_.spring_pass) {
     widths_.push_back(job_.width);
-    rounds_.push_back(rounds_.back());
+    loops_.push_back(loops_.back());
   }
   borders_ = borders_of(edge_, chamfer(job_.width));
   progress_.at(0.8, "motion");
