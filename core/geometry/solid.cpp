@@ -158,7 +158,8 @@ Solid::Nearest Solid::nearest(const Eigen::Vector3d& p) const {
   Nearest best{.point = p, .distance = std::numeric_limits<double>::infinity()};
   for (const Face& face : faces_) {
     feet(face, p, best.distance, [&](const Eigen::Vector3d& q) {
-      best = {.point = q, .distance = (q - p).norm()};
+      const double distance = (q - p).norm();  // a face has several feet
+      if (distance < best.distance) best = {.point = q, .distance = distance};
     });
   }
   if (best.distance <= least * (1 + 1e-12)) return best;
