@@ -58,6 +58,7 @@ cutting::Cutter read_cutter(const Value& value) {
   cutter.pitch = read_pitch(tool);
   cutter.helix = radians(tool.number("helix_deg", between(-80, 80, "degrees"), 0));
   cutter.elements = tool.integer("nq", 1, most_elements, 256);
+  cutter.q_end = radians(tool.number("q_end_deg", between(1, 179, "degrees"), 90));
   if (const std::optional<Value> runout = tool.optional("runout_mm")) {
     cutter.runout = runout->numbers(between(-cutter.r / 4, cutter.r / 4, "mm"));
     if (cutter.runout.size() != cutter.pitch.size())

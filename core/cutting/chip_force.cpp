@@ -84,6 +84,19 @@ bool is_engaged(const ChipTable& table, const ChipPlace& at, const Eigen::Vector
   return is_under_map(stock, origin_at(chip, U) + chip.r * chip.N);
 }
 
+double boundary_value(const ChipTable& table, const ChipPlace& at, std::size_t boundary,
+                      const Eigen::Vector2d& U) {
+  return value(at.first_term()[boundary], table.curves[boundary], U);
+}
+
+Eigen::Vector2d boundary_gradient(const ChipTable& table, const ChipPlace& at, std::size_t boundary,
+                                  const Eigen::Vector2d& U) {
+  const Term& term = at.first_term()[boundary];
+  const Curve& curve = table.curves[boundary];
+  const Eigen::Vector2d a(curve.ax, curve.ay);
+  return Eigen::Vector2d(term.gx, term.gy) + 2 * curve.sign * (U - U.dot(a) * a);
+}
+
 // A convex edge begins where its last face does; a concave one where the first face does that holds
 // the element.
 double stock_limited(const ChipTable& table, const ChipPlace& at, const Eigen::Vector2d& U,

@@ -26,6 +26,13 @@ struct ChipPlace {
 /// S202: is the element in the stock when the tool is displaced by U?
 bool is_engaged(const ChipTable& table, const ChipPlace& at, const Eigen::Vector2d& U);
 
+/// g(U) of one face or groove at an element: <= 0 inside the material.
+double boundary_value(const ChipTable& table, const ChipPlace& at, std::size_t boundary,
+                      const Eigen::Vector2d& U);
+/// Its gradient by U.
+Eigen::Vector2d boundary_gradient(const ChipTable& table, const ChipPlace& at, std::size_t boundary,
+                                  const Eigen::Vector2d& U);
+
 /// min(t, r - rho): rho is where the ray from O' through the element enters the stock.
 double stock_limited(const ChipTable& table, const ChipPlace& at, const Eigen::Vector2d& U,
                      double t);

@@ -267,6 +267,7 @@ ToothChips tooth_chips(const Scene& scene, int tooth, ToothChips out) {
     const Edge& edge = edges[static_cast<std::size_t>(element)];
     const Aim at = aim(scene, edge, sample);
     out.chips.push_back(chip_at(scene, edge, at));
+    out.chips.back().element = element;
     out.chips.back().earlier = earlier_at(scene, edge, at, sample, befores.front());
     for (std::size_t m = 1; m < befores.size(); ++m) {
       out.earlier.push_back(earlier_at(scene, edge, at, sample, befores[m]));

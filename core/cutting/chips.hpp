@@ -26,6 +26,7 @@ struct Chip {
   double r = 0;        ///< radius of its tooth [mm]
   double base = 0;     ///< height of the point of the axis that N starts from, from O' [mm]
   Earlier earlier;     ///< the tooth before
+  std::int32_t element = 0;
 };
 
 /// g(U) = g0 + gx Ux + gy Uy + curve |U_perp|^2 <= 0: the element is in the material of one face.

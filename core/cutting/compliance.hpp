@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <complex>
 #include <variant>
 #include <vector>
@@ -26,10 +27,13 @@ struct MeasuredResponse {
 
 using Direction = std::variant<Modes, MeasuredResponse>;
 
-/// Compliance of the tool tip across its axis, directions not coupled. Frame of the cut.
+/// Compliance of the tool tip across its axis, in two principal directions that are not coupled.
 struct Compliance {
   Direction x;
   Direction y;
+  /// Unit vectors of the two directions as columns, in X and Y of the cut: the feed turns, the
+  /// machine does not.
+  Eigen::Matrix2d axes = Eigen::Matrix2d::Identity();
 };
 
 /// G at a frequency [mm/N].

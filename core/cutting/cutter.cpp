@@ -64,11 +64,12 @@ std::vector<Element> elements(const Cutter& cutter) {
     const double middle = (static_cast<double>(j) + 0.5) / cutter.elements;
     Element& element = row[j];
     if (cutter.kind == CutterKind::Ball) {
-      const double q = middle * pi / 2;
+      const double q = middle * cutter.q_end;
       element.sin_q = std::sin(q);
       element.cos_q = std::cos(q);
       element.z = cutter.r * (1 - element.cos_q);
-      element.width = ball_width(cutter, element.sin_q, element.cos_q, pi / 2 / cutter.elements);
+      element.width =
+          ball_width(cutter, element.sin_q, element.cos_q, cutter.q_end / cutter.elements);
     } else {
       element.z = middle * cutter.height;
       const double dz = cutter.height / cutter.elements;
@@ -86,6 +87,7 @@ void validate(const Cutter& cutter) {
   require_between("/case/tool/r", cutter.r, 1e-3, 1e3, "mm");
   require_between("/case/tool/helix_deg", cutter.helix, -1.5, 1.5, "rad");
   require_between("/case/tool/nq", cutter.elements, 1, most_elements, "elements");
+  require_between("/case/tool/q_end_deg", cutter.q_end, 0.01, pi - 0.01, "rad");
   double turn = 0;
   for (const double pitch : cutter.pitch) {
     require_between("/case/tool/pitch_deg", pitch, 1e-3, 2 * pi, "rad");

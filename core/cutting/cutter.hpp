@@ -1,5 +1,6 @@
 #pragma once
 
+#include <numbers>
 #include <vector>
 
 namespace ridgeline::cutting {
@@ -23,7 +24,9 @@ struct Cutter {
   double offset = 0;           ///< tool axis from spindle axis [mm]
   double offset_angle = 0;     ///< its direction at theta = 0, from -X towards +Y [rad]
   int elements = 256;          ///< per tooth
-  double height = 0;           ///< square: axial depth of cut a_p that the elements cover [mm]
+  double q_end =
+      std::numbers::pi / 2;  ///< ball: the edges end here; a lollipop's beyond 90 degrees
+  double height = 0;         ///< square: axial depth of cut a_p that the elements cover [mm]
   LagLaw lag = LagLaw::Tangent;
   ChipWidth chip_width = ChipWidth::Chip;
 };

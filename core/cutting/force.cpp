@@ -31,10 +31,20 @@ Eigen::Vector2d offset_at(const Cut& cut, int sample) {
   return cut.cutter.offset * Eigen::Vector2d(-std::cos(at), std::sin(at));
 }
 
-double greatest_deflection(const ChipTable& table, const Deflections& D) {
+double greatest_deflection(const Cut& cut, const Deflections& D) {
   double greatest = 0;
   for (const Eigen::Vector2d& U : D) greatest = std::max(greatest, U.squaredNorm());
-  return std::sqrt(greatest) + table.cut.cutter.offset;
+  return std::sqrt(greatest) + cut.cutter.offset;
+}
+
+void scale_forces(ChipTable& table, double cut_scale, double edge_scale) {
+  if (cut_scale == 1 && edge_scale == 1) return;
+  for (ToothChips& tooth : table.teeth) {
+    for (Chip& chip : tooth.chips) {
+      chip.Fc *= cut_scale;
+      chip.Fe *= edge_scale;
+    }
+  }
 }
 
 Revolution revolution_force(const ChipTable& table, const Deflections& D1, Span span) {
@@ -64,17 +74,19 @@ Revolution revolution_force(const ChipTable& table, const Deflections& D1, Span 
 }
 
 std::optional<double> machining_error(const ChipTable& table, const Revolution& revolution,
-                                      const Deflections& D4, Span span) {
+                                      const Deflections& D4, Span span, const Eigen::Vector3d& n) {
+  const double r = table.cut.cutter.r;
   std::optional<double> e;
   std::size_t evaluated = 0;
   for (int i = 0; i < samples_of(table, span); ++i) {
     const Eigen::Vector2d U = D4[static_cast<std::size_t>(i)] + offset_at(table.cut, i);
-    const double shift = U.dot(table.cut.n.head<2>());
+    const double shift = U.dot(n.head<2>());
     for (int k = 0; k < teeth(table.cut.cutter); ++k) {
       const Row row = row_at(table, i, k);
       for (std::size_t index = row.from; index < row.to; ++index) {
         if (revolution.cut[evaluated++] == 0) continue;
-        const double left = row.tooth->chips[index].depth + shift;  // e'
+        const Chip& chip = row.tooth->chips[index];
+        const double left = r + chip.r * chip.N.dot(n) + shift;  // e'
         if (!e || left < *e) e = left;
       }
     }

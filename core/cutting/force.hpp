@@ -27,10 +27,14 @@ Revolution revolution_force(const ChipTable& table, const Deflections& D1, Span 
 
 /// (25)..(27): smallest e' of all points that cut, at the deflection D4; `revolution` is the last
 /// force evaluation. nullopt when nothing cuts. > 0: material left, < 0: overcut [mm].
+/// `n`: unit, from the contact point of the surface to O'.
 std::optional<double> machining_error(const ChipTable& table, const Revolution& revolution,
-                                      const Deflections& D4, Span span);
+                                      const Deflections& D4, Span span, const Eigen::Vector3d& n);
 
-/// Largest |D| with the runout of the axis added, what table.reach must cover [mm].
-double greatest_deflection(const ChipTable& table, const Deflections& D);
+/// Largest |D| with the offset of the axis added, what the reach of a table must cover [mm].
+double greatest_deflection(const Cut& cut, const Deflections& D);
+
+/// K_c and K_e of every chip times these.
+void scale_forces(ChipTable& table, double cut_scale, double edge_scale);
 
 }  // namespace ridgeline::cutting

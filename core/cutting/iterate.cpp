@@ -71,70 +71,100 @@ private:
 };
 
 // kappa / tc, which must leave the tool its resonances: at 1.4 fn the error moves by 0.8 um, at 2
-// fn by 0.1 um (design: section 5).
-double checked_cutoff(double kappa, double tc, const Compliance& compliance) {
+// fn by 0.1 um (design: section 5). nullopt: it does not, and the cut goes without.
+std::optional<double> checked_cutoff(const IterateOptions& options, double tc,
+                                     const Compliance& compliance) {
   constexpr double least_ratio = 2;
-  const double cutoff = kappa / tc;
+  if (!options.kappa || !(tc > 0)) return {};
+  const double cutoff = *options.kappa / tc;
   const std::vector<double> fn = natural_frequencies(compliance);
-  if (!fn.empty()) {
-    require_between("/options/kappa", cutoff, least_ratio * fn.back(),
-                    std::numeric_limits<double>::max(),
-                    "Hz, where the low-pass kappa / tc cuts; twice the highest natural frequency");
-  }
-  return cutoff;
+  const double least = fn.empty() ? 0 : least_ratio * fn.back();
+  if (cutoff >= least) return cutoff;
+  if (options.guard == LowPassGuard::Off) return {};
+  require_between("/options/kappa", cutoff, least, std::numeric_limits<double>::max(),
+                  "Hz, where the low-pass kappa / tc cuts; twice the highest natural frequency");
+  return {};
 }
 
 }  // namespace
 
-Prediction iterate(const Cut& cut, const Compliance& compliance, double S,
-                   const IterateOptions& options, const Deflections& start,
-                   const Progress& progress) {
-  const int z = options.span == Span::Pitch ? teeth(cut.cutter) : 1;
-  const int samples = cut.samples / z;
-  const Response response(compliance, samples, S * z);
-  Deflections D1 = resampled(start, samples);
-  constexpr double first_reach = 0.05;
-  ChipTable table = chip_table(cut, first_reach);
-  if (const double used = greatest_deflection(table, D1); used > table.reach) {
-    table = chip_table(cut, 1.5 * used);
+Iteration::Iteration(const Compliance& compliance, double S, IterateOptions options)
+    : compliance_(compliance), S_(S), options_(std::move(options)) {}
+
+// Searches the chips for the deflection in use; the memory of the table before serves again.
+void Iteration::make_room(const Cut& cut, double used) {
+  constexpr double least_reach = 0.02;
+  constexpr double margin = 1.5;
+  table_ = chip_table(cut, std::max(least_reach, margin * used), std::move(table_));
+  scale_forces(table_, cut_scale_, edge_scale_);
+}
+
+Prediction Iteration::solve(const Cut& cut, const Eigen::Matrix2d& axes, const Deflections& start,
+                            const Progress& progress) {
+  const int z = options_.span == Span::Pitch ? teeth(cut.cutter) : 1;
+  if (!response_ || samples_ != cut.samples / z) {
+    samples_ = cut.samples / z;
+    response_.emplace(compliance_, samples_, S_ * z);
   }
-  Weights weights(options);
+  response_->turn(axes);
+  cut_scale_ = edge_scale_ = 1;
+  Deflections D1 = resampled(start, samples_);
+  make_room(cut, greatest_deflection(cut, D1));
+  return loops(std::move(D1), progress);
+}
+
+Prediction Iteration::scaled(double cut_scale, double edge_scale) {
+  scale_forces(table_, cut_scale / cut_scale_, edge_scale / edge_scale_);
+  cut_scale_ = cut_scale;
+  edge_scale_ = edge_scale;
+  return loops(D_, {});
+}
+
+std::optional<double> Iteration::error_towards(const Eigen::Vector3d& n) const {
+  return machining_error(table_, revolution_, D_, options_.span, n);
+}
+
+Prediction Iteration::loops(Deflections D1, const Progress& progress) {
+  const int z = options_.span == Span::Pitch ? teeth(table_.cut.cutter) : 1;
+  const int N = table_.cut.samples;
+  Weights weights(options_);
   Prediction out;
   double cutoff = std::numeric_limits<double>::infinity();
   while (true) {
-    progress.at(static_cast<double>(out.loops) / options.max_loops, "iteration");
-    const Revolution revolution = revolution_force(table, D1, options.span);
+    progress.at(static_cast<double>(out.loops) / options_.max_loops, "iteration");
+    revolution_ = revolution_force(table_, D1, options_.span);
     if (out.loops++ == 0) {
-      out.contact_time = revolution.cut_steps / (cut.samples * S);
-      if (options.kappa && revolution.cut_steps > 0) {
-        cutoff = checked_cutoff(*options.kappa, out.contact_time, compliance);
-        out.cutoff = cutoff;
-      }
+      out.contact_time = revolution_.cut_steps / (N * S_);
+      out.cutoff = checked_cutoff(options_, out.contact_time, compliance_);
+      if (out.cutoff) cutoff = *out.cutoff;
     }
-    const Deflections D4 = response.deflections(revolution.F, cutoff);
-    out.A.push_back(residual(D4, D1) * z);
-    out.e = machining_error(table, revolution, D4, options.span);
+    D_ = response_->deflections(revolution_.F, cutoff);
+    out.A.push_back(residual(D_, D1) * z);
+    out.e = machining_error(table_, revolution_, D_, options_.span, table_.cut.n);
     out.e_history.push_back(out.e);
-    out.cut_points = revolution.cut_points;
-    const double lambda = options.alpha * squared_sum(D4) * z;  // (2)
+    const double lambda = options_.alpha * squared_sum(D_) * z;  // (2)
     out.converged = out.A.back() < lambda || out.A.back() == 0;
-    const bool is_last = out.converged || out.loops >= options.max_loops;
-    if (!is_last && weights.changed_by(out.A.back())) {
+    if (out.converged || out.loops >= options_.max_loops) break;
+    if (weights.changed_by(out.A.back())) {
       out.weight_changes.push_back({out.loops, weights.w1()});
     }
-    if (is_last) {
-      out.F = revolution.F;
-      out.D = D4;
-      break;
-    }
-    average(D1, D4, weights.w1());
-    if (const double used = greatest_deflection(table, D1); used > table.reach) {
-      table = chip_table(cut, 1.5 * used);
+    average(D1, D_, weights.w1());
+    if (const double used = greatest_deflection(table_.cut, D1); used > table_.reach) {
+      make_room(Cut(table_.cut), used);
     }
   }
+  out.cut_points = revolution_.cut_points;
+  out.F = revolution_.F;
+  out.D = D_;
   out.w1 = weights.w1();
-  out.reach = table.reach;
+  out.reach = table_.reach;
   return out;
+}
+
+Prediction iterate(const Cut& cut, const Compliance& compliance, double S,
+                   const IterateOptions& options, const Deflections& start,
+                   const Progress& progress) {
+  return Iteration(compliance, S, options).solve(cut, compliance.axes, start, progress);
 }
 
 Prediction rigid(const Cut& cut, const Compliance& compliance, double S, Span span) {

@@ -8,6 +8,10 @@
 
 namespace ridgeline::cutting {
 
+/// What happens to a low-pass that would cut the tool's own resonance: the cut is refused, or goes
+/// without.
+enum class LowPassGuard { Refuse, Off };
+
 /// How the iteration runs. The names of the document where it has them.
 struct IterateOptions {
   double alpha = 0.01;                       ///< converged when A < alpha sum |D4|^2 (2)
@@ -17,6 +21,7 @@ struct IterateOptions {
   bool adapt = true;                         ///< change weights at all
   int max_loops = 300;
   std::optional<double> kappa;  ///< low-pass at kappa / tc; absent: none
+  LowPassGuard guard = LowPassGuard::Refuse;
   Span span = Span::Revolution;
 };
 
@@ -53,5 +58,35 @@ Prediction iterate(const Cut& cut, const Compliance& compliance, double S,
 
 /// The rigid method: one loop from no deflection.
 Prediction rigid(const Cut& cut, const Compliance& compliance, double S, Span span);
+
+/// The same for one cut after another of one tool at one speed: keeps what they share.
+class Iteration {
+public:
+  Iteration(const Compliance& compliance, double S, IterateOptions options);
+
+  /// Predicts a cut; its principal directions may have turned.
+  Prediction solve(const Cut& cut, const Eigen::Matrix2d& axes, const Deflections& start,
+                   const Progress& progress = {});
+
+  /// Error of the last cut solved against another surface: n points from its contact to O'.
+  std::optional<double> error_towards(const Eigen::Vector3d& n) const;
+
+  /// The last cut again with its forces scaled, from its own deflection: K_c and K_e times these.
+  Prediction scaled(double cut_scale, double edge_scale);
+
+private:
+  Prediction loops(Deflections D1, const Progress& progress);
+  void make_room(const Cut& cut, double used);
+
+  Compliance compliance_;
+  double S_;
+  IterateOptions options_;
+  std::optional<Response> response_;
+  int samples_ = 0;
+  ChipTable table_;
+  Revolution revolution_;
+  Deflections D_;
+  double cut_scale_ = 1, edge_scale_ = 1;
+};
 
 }  // namespace ridgeline::cutting

@@ -14,6 +14,7 @@ struct Response::Plan {
   kissfft<double> inverse;
   std::vector<Complex> Gx, Gy;  // bins 0 .. samples / 2
   std::vector<Complex> time, bins;
+  Eigen::Matrix2d axes = Eigen::Matrix2d::Identity();
 };
 
 Response::Response(const Compliance& compliance, int samples, double repetition)
@@ -24,7 +25,8 @@ Response::Response(const Compliance& compliance, int samples, double repetition)
                      {},
                      {},
                      std::vector<Complex>(static_cast<std::size_t>(samples)),
-                     std::vector<Complex>(static_cast<std::size_t>(samples))}) {
+                     std::vector<Complex>(static_cast<std::size_t>(samples)),
+                     compliance.axes}) {
   const std::size_t last = plan_->samples / 2;
   for (std::size_t k = 0; k <= last; ++k) {
     const double frequency = static_cast<double>(k) * repetition;
@@ -42,6 +44,10 @@ Response::~Response() = default;
 Response::Response(Response&&) noexcept = default;
 Response& Response::operator=(Response&&) noexcept = default;
 
+void Response::turn(const Eigen::Matrix2d& axes) {
+  plan_->axes = axes;
+}
+
 Deflections Response::deflections(const Forces& forces) const {
   return deflections(forces, std::numeric_limits<double>::infinity());
 }
@@ -52,7 +58,10 @@ Deflections Response::deflections(const Forces& forces, double cutoff) const {
   Plan& plan = *plan_;
   const std::size_t n = plan.samples;
   const Complex i(0, 1);
-  for (std::size_t s = 0; s < n; ++s) plan.time[s] = {forces[s].x(), forces[s].y()};
+  for (std::size_t s = 0; s < n; ++s) {
+    const Eigen::Vector2d F = plan.axes.transpose() * forces[s].head<2>();
+    plan.time[s] = {F.x(), F.y()};
+  }
   plan.forward.transform(plan.time.data(), plan.bins.data());
   for (std::size_t k = 0; 2 * k <= n; ++k) {
     const std::size_t mirror = k == 0 ? 0 : n - k;
@@ -68,7 +77,7 @@ Deflections Response::deflections(const Forces& forces, double cutoff) const {
   Deflections out(n);
   const double scale = 1 / static_cast<double>(n);
   for (std::size_t s = 0; s < n; ++s) {
-    out[s] = {plan.time[s].real() * scale, plan.time[s].imag() * scale};
+    out[s] = plan.axes * Eigen::Vector2d(plan.time[s].real() * scale, plan.time[s].imag() * scale);
   }
   return out;
 }

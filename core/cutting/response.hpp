@@ -22,6 +22,9 @@ public:
   Response(Response&&) noexcept;
   Response& operator=(Response&&) noexcept;
 
+  /// Turns the principal directions: columns in X and Y of the cut.
+  void turn(const Eigen::Matrix2d& axes);
+
   /// D2 of one period of force.
   Deflections deflections(const Forces& forces) const;
 

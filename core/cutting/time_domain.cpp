@@ -60,7 +60,8 @@ class Run {
 public:
   Run(const Cut& cut, const Compliance& compliance, double S)
       : x_(modes_of(compliance.x), 1 / (S * cut.samples)),
-        y_(modes_of(compliance.y), 1 / (S * cut.samples)) {
+        y_(modes_of(compliance.y), 1 / (S * cut.samples)),
+        axes_(compliance.axes) {
     constexpr double first_reach = 0.1;
     search(cut, first_reach);
   }
@@ -73,7 +74,7 @@ public:
     for (int i = 0; i < table_.cut.samples; ++i) {
       if (i % often == 0) at(static_cast<double>(i) / table_.cut.samples);
       step(i);
-      out.D.emplace_back(x_.displacement(), y_.displacement());
+      out.D.push_back(displacement());
       out.F.push_back(F_);
       if (e_ && (!out.e || *e_ < *out.e)) out.e = e_;
     }
@@ -89,11 +90,13 @@ private:
     if (n_ > 0) F = force(i, ahead(F) + offset);
     F = force(i, ahead(F) + offset);
     if (n_ > 0) {
-      x_.step(F_.x(), F.x());
-      y_.step(F_.y(), F.y());
+      const Eigen::Vector2d from = along_axes(F_);
+      const Eigen::Vector2d to = along_axes(F);
+      x_.step(from.x(), to.x());
+      y_.step(from.y(), to.y());
     }
     F_ = F;
-    const Eigen::Vector2d U = Eigen::Vector2d(x_.displacement(), y_.displacement()) + offset;
+    const Eigen::Vector2d U = displacement() + offset;
     history_.set(n_, U);
     if (least_depth_) e_ = *least_depth_ + U.dot(table_.cut.n.head<2>());
     if (!least_depth_) e_.reset();
@@ -101,7 +104,17 @@ private:
 
   Eigen::Vector2d ahead(const Eigen::Vector3d& F) const {
     if (n_ == 0) return Eigen::Vector2d::Zero();
-    return {x_.ahead(F_.x(), F.x()), y_.ahead(F_.y(), F.y())};
+    const Eigen::Vector2d from = along_axes(F_);
+    const Eigen::Vector2d to = along_axes(F);
+    return axes_ * Eigen::Vector2d(x_.ahead(from.x(), to.x()), y_.ahead(from.y(), to.y()));
+  }
+
+  Eigen::Vector2d along_axes(const Eigen::Vector3d& F) const {
+    return axes_.transpose() * F.head<2>();
+  }
+
+  Eigen::Vector2d displacement() const {
+    return axes_ * Eigen::Vector2d(x_.displacement(), y_.displacement());
   }
 
   Eigen::Vector3d force(int i, const Eigen::Vector2d& U) {
@@ -129,6 +142,7 @@ private:
 
   ChipTable table_;
   Oscillator x_, y_;
+  Eigen::Matrix2d axes_;
   History history_;
   Eigen::Vector3d F_ = Eigen::Vector3d::Zero();
   std::optional<double> least_depth_;  // of the chips that cut at the last force

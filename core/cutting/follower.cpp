@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/text.hpp"
+#include "core/cutting/along.hpp"
+
+namespace ridgeline::cutting {
+namespace {
+
+IterateOptions iterate_options(const Course& course, const AlongOptions& options) {
+  IterateOptions used = options.iterate;
+  const bool alike = is_periodic(course.cutter) && course.samples % teeth(course.cutter) == 0;
+  used.span = alike ? Span::Pitch : Span::Revolution;
+  used.guard = LowPassGuard::Off;
+  if (options.method == Method::Rigid) used.max_loops = 1;
+  return used;
+}
+
+// Forces and deflection in the work frame.
+void summarise(const Prediction& prediction, const Eigen::Matrix3d& axes, StationError& out) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& F : prediction.F) {
+    sum += F;
+    if (F.squaredNorm() > force.squaredNorm()) force = F;
+  }
+  Eigen::Vector2d deflection = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& D : prediction.D) {
+    if (D.squaredNorm() > deflection.squaredNorm()) deflection = D;
+  }
+  out.mean_force = axes * (sum / static_cast<double>(prediction.F.size()));
+  out.peak_force = axes * force;
+  out.peak_deflection = axes * Eigen::Vector3d(deflection.x(), deflection.y(), 0);
+}
+
+double limit_of(const CorrectOptions& limits, double original) {
+  return std::max(limits.residual, limits.relative * std::abs(original));
+}
+
+[[noreturn]] void refuse(const Station& station, double radius, double original, double left,
+                         double shift, double limit) {
+  const auto um = [](double mm) { return text(std::round(mm * 1e6) / 1e3) + " um"; };
+  ErrorDetails details;
+  details.value = um(left);
+  details.limit = um(limit);
+  details.target = Eigen::Vector3d(station.centre - radius * station.n);
+  throw Error(ErrorCode::NotConverged,
+              "correction: the error of " + um(original) + " is still " + details.value +
+                  " after a shift of " + um(shift) + ", allowed " + details.limit +
+                  "; the shift raises the engagement without taking the error away",
+              details);
+}
+
+}  // namespace
+
+Follower::Follower(const Course& course, const Compliance& compliance, double S,
+                   const AlongOptions& options)
+    : course_(course),
+      compliance_(compliance),
+      S_(S),
+      options_(options),
+      iteration_(compliance, S, iterate_options(course, options)) {}
+
+// The tool moved to c - shift n.
+StationError Follower::shifted(const Station& nominal, double shift) {
+  Station station = nominal;
+  station.centre -= shift * station.n;
+  const Cut cut = cut_at(course_, station);
+  const Eigen::Matrix3d axes = cut_axes(course_, station.direction);
+  compliance_.axes = machine_axes(course_, station.direction);
+  Prediction prediction = iteration_.solve(cut, compliance_.axes, start_);
+  StationError out;
+  out.loops = prediction.loops;
+  out.converged = prediction.converged;
+  out.low_pass_off = options_.iterate.kappa && !prediction.cutoff && prediction.e;
+  out.e = prediction.e;
+  for (const Eigen::Vector3d& n : station.borders) {
+    out.border.push_back(iteration_.error_towards(axes.transpose() * n));
+  }
+  if (!out.converged && options_.fall_back && options_.method == Method::Iterate) {
+    fall_back(cut, prediction, out);
+  }
+  start_ = prediction.D;
+  summarise(prediction, axes, out);
+  return out;
+}
+
+// The deflection of the time domain is also what the next station begins from.
+void Follower::fall_back(const Cut& cut, Prediction& prediction, StationError& out) {
+  const std::size_t samples = prediction.D.size();
+  out.fell_back = true;
+  try {
+    TimeDomain run = time_domain(cut, compliance_, S_, options_.time);
+    out.e = run.e;
+    prediction.F = std::move(run.F);
+    run.D.resize(samples);
+    prediction.D = std::move(run.D);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::NotConverged) throw;
+    out.settles = false;
+  }
+}
+
+StationError Follower::at(const Station& station) {
+  StationError out = shifted(station, 0);
+  if (options_.uncertainty && out.e) out.spread = spread(*out.e);
+  return out;
+}
+
+// Central differences by a tenth, from the deflection that the station has.
+double Follower::spread(double e) {
+  constexpr double step = 0.1;
+  const auto& [cutting, edge, stiffness] = *options_.uncertainty;
+  const auto error = [&](double cut_scale, double edge_scale) {
+    return iteration_.scaled(cut_scale, edge_scale).e.value_or(e);
+  };
+  const double by_cutting = (error(1 + step, 1) - error(1 - step, 1)) / (2 * step);
+  const double by_edge = (error(1, 1 + step) - error(1, 1 - step)) / (2 * step);
+  const double by_stiffness = -(by_cutting + by_edge);  // a stiffer tool is less of both forces
+  return std::hypot(by_cutting * cutting, by_edge * edge, by_stiffness * stiffness);
+}
+
+// Fixed point s = e(s): the first shift is e(0), the next ones by the secant of e(s) - s, which
+// also serves where e(s) grows nearly as fast as s.
+StationError Follower::corrected_at(const Station& station, const CorrectOptions& limits) {
+  StationError now = shifted(station, 0);
+  if (!now.e) return now;
+  const double radius = course_.cutter.r;
+  const double original = *now.e;
+  const double limit = limit_of(limits, original);
+  double s = 0, s_before = 0;
+  double left = original, left_before = 0;
+  for (int shifts = 0; std::abs(left) > limit; ++shifts) {
+    const double slope = shifts == 0 ? -1 : (left - left_before) / (s - s_before);
+    const double next = s - left / slope;
+    const bool is_lost = !(slope < 0) || !(std::abs(next) <= limits.largest_shift * radius);
+    if (is_lost || shifts == limits.max_shifts) {
+      refuse(station, radius, original, left, s, limit);
+    }
+    s_before = s;
+    left_before = left;
+    s = next;
+    now = shifted(station, s);
+    if (!now.e) refuse(station, radius, original, left, s, limit);
+    left = *now.e - s;
+  }
+  if (options_.uncertainty) now.spread = spread(*now.e);
+  now.before = original;
+  now.shift = s;
+  now.e = left;
+  for (std::size_t b = 0; b < now.border.size(); ++b) {
+    if (now.border[b]) *now.border[b] -= s * station.n.dot(station.borders[b]);
+  }
+  return now;
+}
+
+Stability Follower::stability_at(const Station& station) {
+  compliance_.axes = machine_axes(course_, station.direction);
+  return stability(cut_at(course_, station), compliance_, S_);
+}
+
+}  // namespace ridgeline::cutting

@@ -1,0 +1,112 @@
+#include "core/cutting/along.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/cutting/floquet.hpp"
+#include "tests/core/cutting/oracle_case.hpp"
+
+namespace ridgeline::cutting {
+namespace {
+
+// Case 01 as a station of a path along +Y: the frame of the cut is the work frame there.
+struct Example {
+  nlohmann::json file = oracle::file("01-ball-down-milling-1-groove.json");
+  Cut cut = oracle::cut(file["case"]);
+  Compliance compliance = oracle::compliance(file["case"]);
+  double S = file["speed_rpm"].get<double>() / 60;
+  Course course;
+  Station station;
+  Example() {
+    course.cutter = cut.cutter;
+    course.coefficients = cut.coefficients;
+    course.samples = cut.samples;
+    station.centre = Eigen::Vector3d::Zero();
+    station.direction = feed_direction(cut);
+    station.n = cut.n;
+    station.feed = cut.feed;
+    station.stock = cut.stock;
+  }
+};
+
+TEST(Along, OneStationIsTheEngagement) {
+  const Example example;
+  const auto path = along(example.course, {example.station}, example.compliance, example.S, {});
+  const Prediction alone = iterate(example.cut, example.compliance, example.S, {});
+  ASSERT_EQ(path.size(), 1U);
+  EXPECT_NEAR(*path[0].e, *alone.e, 1e-12);
+  EXPECT_EQ(path[0].loops, alone.loops);
+}
+
+// The same cut on a path that runs the other way, elsewhere: forces turn with it, the error stays.
+TEST(Along, TurnsAndMovesWithTheWork) {
+  const Example example;
+  Station moved = example.station;
+  const Eigen::Vector3d to(10, -20, 5);
+  const Eigen::Vector3d flip(-1, -1, 1);  // half a turn about Z
+  const auto turned = [&flip](const Eigen::Vector3d& v) -> Eigen::Vector3d {
+    return v.cwiseProduct(flip);
+  };
+  moved.centre = to;
+  moved.direction = turned(moved.direction);
+  moved.n = turned(moved.n);
+  for (Face& face : moved.stock.faces) {
+    auto& plane = std::get<HalfSpace>(face);
+    plane.n = turned(plane.n);
+    plane.h += plane.n.dot(to);
+  }
+  for (Round& groove : moved.stock.grooves) {
+    groove.centre = turned(groove.centre) + to;
+    groove.axis = turned(groove.axis);
+  }
+  AlongOptions options;
+  options.iterate.alpha = 1e-12;
+  options.part = 1;
+  const auto path =
+      along(example.course, {example.station, moved}, example.compliance, example.S, options);
+  EXPECT_NEAR(*path[0].e, *path[1].e, 1e-9);
+  EXPECT_LT((turned(path[0].peak_force) - path[1].peak_force).norm(), 1e-5);
+}
+
+// Design page: residual at most 5 % of the original error or 0.5 um.
+TEST(Along, CorrectionTakesTheErrorAway) {
+  const Example example;
+  AlongOptions options;
+  options.iterate.alpha = 1e-6;
+  const auto path =
+      corrected(example.course, {example.station}, example.compliance, example.S, options, {});
+  EXPECT_GT(path[0].before, 0.009);
+  EXPECT_LE(std::abs(*path[0].e), std::max(0.0005, 0.05 * path[0].before));
+  Station shifted = example.station;
+  shifted.centre -= path[0].shift * shifted.n;
+  const auto again = along(example.course, {shifted}, example.compliance, example.S, options);
+  EXPECT_NEAR(*again[0].e - path[0].shift, *path[0].e, 2e-4);
+}
+
+// B1 of the design page: slot, flexible along the feed, |mu| per tooth by Chebyshev collocation.
+TEST(Floquet, InspergerSlot) {
+  struct Row {
+    double depth, mu;
+  };
+  for (const auto& [depth, mu] : {Row{0.2, 0.819742784266}, Row{0.5, 1.073975586677},
+                                  Row{0.7, 1.221556135687}, Row{1.0, 1.406473525390}}) {
+    Cut cut;
+    cut.cutter.kind = CutterKind::Square;
+    cut.cutter.r = 10;
+    cut.cutter.pitch = equal_pitch(2);
+    cut.cutter.elements = 1;
+    cut.cutter.height = depth;
+    cut.coefficients = {600, 0, 200, 0, 0, 0};
+    cut.n = {-1, 0, 0};
+    cut.feed = 1e-5;
+    cut.samples = 4096;
+    cut.stock.faces = {HalfSpace{cut.n, cut.cutter.r}};
+    const Compliance along_feed{Modes{}, Modes{{922, 0.011, 1340.049648}}};
+    const Deflections at_rest(2048, Eigen::Vector2d::Zero());
+    const auto multiplier =
+        floquet_multiplier(cut, along_feed, 5000 / 60.0, at_rest, Engaging::Frozen);
+    EXPECT_NEAR(std::abs(multiplier), mu, 5e-5) << depth << " mm";
+  }
+}
+
+}  // namespace
+}  // namespace ridgeline::cutting
