@@ -87,9 +87,9 @@ CanonRun run_rs274(const std::string& program) {
   std::ofstream(folder.file("program.ngc")) << program;
   // The stand-alone driver reads the tool table in inches.
   std::ofstream(folder.file("tool.tbl")) << "T12 P12 D0.236220472440945 Z3.93700787401575\n";
-  const std::string command = "timeout 20 rs274 -g -n 2 -t " + folder.file("tool.tbl") + " -v " +
-                              folder.file("fresh.var") + " " + folder.file("program.ngc") + " > " +
-                              folder.file("canon") + " 2>&1";
+  const std::string command = "cd " + folder.file("") + " && timeout 20 rs274 -g -n 2 -t " +
+                              folder.file("tool.tbl") + " -v " + folder.file("fresh.var") + " " +
+                              folder.file("program.ngc") + " > " + folder.file("canon") + " 2>&1";
   CanonRun run;
   const int status = std::system(command.c_str());
   run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
