@@ -44,7 +44,7 @@ BorderRates border_rates(const Section& section, const SectionPoint& point, doub
 
   BorderRates rates;
   rates.P = {p1.x(), p1.y(), -n1.head<2>().dot(p1) / n1.z()};  // (a)
-  const Vector3d QP1 = line.F.Q * rates.P;
+  const Vector3d QP1 = hessian_times(line.F, rates.P);
   rates.P2 = {p2.x(), p2.y(), -(rates.P.dot(QP1) + n1.head<2>().dot(p2)) / n1.z()};  // (b)
 
   const Vector3d e1_rate(profile.curvature * p1.x(), profile.curvature * p1.y(), 0);

@@ -29,21 +29,70 @@ struct Plane {
   double c, s, q11, q12, q22;
 };
 
+// Ends of the chamfer in VP.
+struct Ends {
+  double S1 = 0, T1 = 0, S2 = 0, T2 = 0;
+  bool converged = false;
+};
+
+// [E 13..15, 17, 21] while G2 stays on the part of the profile that P is on. Body F and wall w are
+// quadratic in y = (S2, T2): a move d from where they are known leaves exactly F + F_y d + d.q d /
+// 2, so one linearisation and a few cheap steps d = -J^-1 (F + d.q d / 2, w + d.k d / 2) solve
+// both.
+Ends ends_beside(const Plane& vp, double W, double sine, double cosine) {
+  const double over_s = 1 / vp.s;
+  const double k = vp.kappa * vp.tau * vp.tau;
+  const double dS1 = W * sine;
+  const double dT1 = -W * cosine;
+  const double T0 = W * (cosine - sine * vp.c * over_s);  // of the plane wedge
+  const double tolerance = 4e-16 * (W + std::abs(T0));
+  const auto F_quadratic = [&](double S, double T) {
+    return 0.5 * ((vp.q11 * S + 2 * vp.q12 * T) * S + vp.q22 * T * T);
+  };
+  const auto w_quadratic = [&](double S, double T) { return 0.5 * (vp.kappa * S * S + k * T * T); };
+  // First with the slopes of the plane wedge.
+  double S = -w_quadratic(0, T0);
+  double T = T0 - over_s * (F_quadratic(dS1, T0 + dT1) + vp.c * S);
+  for (int i = 0; i < 6; ++i) {
+    const double S1 = S + dS1;
+    const double T1 = T + dT1;
+    const double F_S = vp.c + vp.q11 * S1 + vp.q12 * T1;
+    const double F_T = vp.s + vp.q12 * S1 + vp.q22 * T1;
+    const double F = 0.5 * ((vp.c + F_S) * S1 + (vp.s + F_T) * T1);  // [E 13]
+    const double w_S = 1 + vp.kappa * S;
+    const double w_T = k * T;
+    const double w = 0.5 * ((1 + w_S) * S + w_T * T);  // [E 14]
+    const double slope = w_S * F_T - w_T * F_S;
+    if (!(slope > 0)) break;  // past the body's summit: not the root next to P
+    const double over = 1 / slope;
+    double dS = over * (w_T * F - F_T * w);
+    double dT = over * (F_S * w - w_S * F);
+    for (int j = 0; j < 6; ++j) {
+      const double F_d = F + F_quadratic(dS, dT);
+      const double w_d = w + w_quadratic(dS, dT);
+      const double next_S = over * (w_T * F_d - F_T * w_d);
+      const double next_T = over * (F_S * w_d - w_S * F_d);
+      const double change = std::abs(next_S - dS) + std::abs(next_T - dT);
+      dS = next_S;
+      dT = next_T;
+      if (change <= tolerance) {
+        return {.S1 = S1 + dS, .T1 = T1 + dT, .S2 = S + dS, .T2 = T + dT, .converged = true};
+      }
+    }
+    S += dS;
+    T += dT;
+  }
+  return {};
+}
+
 struct WallPoint {
   double S = 0;
   double slope = 0;  // dS/dT
 };
 
-// [E 14] while G2 stays on the part of the profile that P is on.
-WallPoint wall_beside(const Plane& vp, double T) {
-  const double x = vp.kappa * vp.tau * T;
-  const double root = std::sqrt(1 - x * x);
-  return {.S = -x * vp.tau * T / (1 + root), .slope = -x * vp.tau / root};
-}
-
 // [E 14] by the signed distance of the whole profile: Newton from the outside, where the distance
 // is convex. At the far side of the hole there is no wall: S is not a number.
-WallPoint wall_across(const Plane& vp, double T) {
+WallPoint wall_at(const Plane& vp, double T) {
   const Eigen::Vector2d start = vp.p + vp.tau * T * vp.t2;
   WallPoint wall;
   for (int i = 0; i < 100; ++i) {
@@ -58,49 +107,40 @@ WallPoint wall_across(const Plane& vp, double T) {
   return {.S = std::numeric_limits<double>::quiet_NaN(), .slope = 0};
 }
 
-struct Ends {
-  double S1, T1, S2, T2;
-  Root root;
-};
-
-// [E 13..15, 17, 21]: slide the chord of length W and angle delta along the wall until G1 is on the
-// body.
-template <class Wall>
-Ends ends(const Plane& vp, const Wall& wall_at, double W, double sine, double cosine) {
-  const double T0 = W * (cosine + sine * -vp.c / vp.s);  // of the plane wedge
+// [E 13..15, 17, 21] anywhere: slide the chord of length W and angle delta along the wall until G1
+// is on the body.
+Ends ends_across(const Plane& vp, double W, double sine, double cosine) {
+  const double T0 = W * (cosine - sine * vp.c / vp.s);  // of the plane wedge
   const auto body = [&](double T) -> RootSample {
     const WallPoint wall = wall_at(vp, T);
     if (!std::isfinite(wall.S)) return {.value = std::numeric_limits<double>::infinity()};
     const double S1 = wall.S + W * sine;
     const double T1 = T - W * cosine;
-    const double dS = vp.c + vp.q11 * S1 + vp.q12 * T1;
-    const double dT = vp.s + vp.q12 * S1 + vp.q22 * T1;
-    return {.value = 0.5 * ((vp.c + dS) * S1 + (vp.s + dT) * T1),
-            .slope = dS * wall.slope + dT,
-            .second = vp.q22 - dS * vp.kappa * vp.tau * vp.tau};
+    const double F_S = vp.c + vp.q11 * S1 + vp.q12 * T1;
+    const double F_T = vp.s + vp.q12 * S1 + vp.q22 * T1;
+    return {.value = 0.5 * ((vp.c + F_S) * S1 + (vp.s + F_T) * T1),
+            .slope = F_S * wall.slope + F_T,
+            .second = vp.q22};
   };
   const double reach = 10 * (W / vp.s + std::abs(T0));
   const double tolerance = 2e-15 * (W + std::abs(T0));
-  Ends e{};
-  e.root = rising_root(body, -1e-3 * W, reach, T0, tolerance);
-  e.T2 = e.root.x;
-  e.S2 = wall_at(vp, e.T2).S;
-  e.S1 = e.S2 + W * sine;
-  e.T1 = e.T2 - W * cosine;
-  return e;
+  const Root root = rising_root(body, -1e-3 * W, reach, T0, tolerance);
+  const double S = wall_at(vp, root.x).S;
+  return {.S1 = S + W * sine,
+          .T1 = root.x - W * cosine,
+          .S2 = S,
+          .T2 = root.x,
+          .converged = root.converged};
 }
 
-bool is_on_other_part(const geometry::Profile& profile, const Eigen::Vector2d& p,
-                      const Eigen::Vector2d& q) {
-  const Eigen::Vector2d half(profile.straight_across / 2, profile.straight_along / 2);
-  if (half.isZero(0)) return false;
-  // At a joint the curvature is of one side, and q may be on the other.
-  if (((p.cwiseAbs() - half).array().abs() < 1e-9 * profile.R2).any()) return true;
-  const auto part = [&](const Eigen::Vector2d& x) -> Eigen::Vector2i {
-    return ((x.array() > half.array()).cast<int>() - (x.array() < -half.array()).cast<int>())
-        .matrix();
-  };
-  return part(p) != part(q);
+// Is the G2 of ends_beside() on the wall, or has it run past a joint?
+bool is_on_wall(const Plane& vp, const Ends& e) {
+  const Eigen::Vector2d half(vp.profile.straight_across / 2, vp.profile.straight_along / 2);
+  if (half.isZero(0)) return true;
+  const Eigen::Vector2d q = vp.p + e.S2 * vp.n2 + vp.tau * e.T2 * vp.t2;
+  const Eigen::Vector2d core = q.cwiseMax(-half).cwiseMin(half);
+  const double scale = vp.profile.R2 + half.sum();
+  return std::abs((q - core).norm() - vp.profile.R2) <= 1e-14 * scale;
 }
 
 // How a chamfer runs over VP: from G2 to G1 along d = sin(delta) e1 - cos(delta) e2.
@@ -138,9 +178,8 @@ Direction direction_at(const Section& section, const geometry::RidgePoint& ridge
 void require_ends_on_material(const Section& section, double u, const geometry::RidgePoint& ridge,
                               const Plane& vp, const Ends& e) {
   const double W = section.chamfer->W;
-  const double body =
-      vp.c * e.S2 + vp.s * e.T2 +
-      0.5 * (vp.q11 * e.S2 * e.S2 + 2 * vp.q12 * e.S2 * e.T2 + vp.q22 * e.T2 * e.T2);
+  const double body = (vp.c + 0.5 * (vp.q11 * e.S2 + vp.q12 * e.T2)) * e.S2 +
+                      (vp.s + 0.5 * (vp.q12 * e.S2 + vp.q22 * e.T2)) * e.T2;
   if (!(body >= -1e-9 * W)) {
     refuse(section, u, ridge, "at this section angle the chamfer leaves the wall of the hole");
   }
@@ -208,10 +247,9 @@ SectionPoint section_at(const Section& section, double u) {
   point.ridge = ridge_at(line, profile, u);
   const auto& [P, n1, n2, t, e1, e2, theta] = point.ridge;
 
-  const Eigen::Matrix3d Q = line.m * line.F.Q;
-  const Eigen::Vector3d Qe1 = Q * e1;
-  const double c = line.m * n1.dot(n2);  // = -cos(theta)
-  const double s = line.m * n1.dot(e2);  // = sin(theta)
+  const double m = line.m;
+  const double c = m * n1.head<2>().dot(profile.normal);  // = -cos(theta)
+  const double s = m * n1.dot(e2);                        // = sin(theta)
   const Plane vp{.profile = line.profile,
                  .p = profile.p,
                  .n2 = profile.normal,
@@ -220,24 +258,20 @@ SectionPoint section_at(const Section& section, double u) {
                  .tau = e2.head<2>().dot(profile.tangent),
                  .c = c,
                  .s = s,
-                 .q11 = e1.dot(Qe1),
-                 .q12 = e2.dot(Qe1),
-                 .q22 = e2.dot(Q * e2)};
+                 .q11 = m * second(line.F, e1, e1),
+                 .q12 = m * second(line.F, e1, e2),
+                 .q22 = m * second(line.F, e2, e2)};
   const Direction direction = direction_at(section, point.ridge, c, s);
   point.delta = direction.delta;
   const double sine = direction.sine;
   const double cosine = direction.cosine;
 
-  Ends e = ends(vp, wall_beside, W, sine, cosine);
-  const auto at = [&](double S, double T) -> Eigen::Vector3d { return P + S * e1 + T * e2; };
-  point.G2 = at(e.S2, e.T2);  // [E 12]
-  if (is_on_other_part(line.profile, profile.p, point.G2.head<2>())) {
-    e = ends(vp, wall_across, W, sine, cosine);
-    point.G2 = at(e.S2, e.T2);
-  }
-  if (!(e.root.converged)) {
+  Ends e = ends_beside(vp, W, sine, cosine);
+  if (!e.converged || !is_on_wall(vp, e)) e = ends_across(vp, W, sine, cosine);
+  if (!e.converged) {
     refuse(section, u, point.ridge, "no chord of that length at that angle ends on both surfaces");
   }
+  point.G2 = P + e.S2 * e1 + e.T2 * e2;                 // [E 12]
   point.G1 = point.G2 + W * (sine * e1 - cosine * e2);  // [E 15, 17, 21]
   require_ends_on_material(section, u, point.ridge, vp, e);
   const Eigen::Vector3d M = 0.5 * (point.G1 + point.G2);

@@ -41,7 +41,7 @@ double perimeter(const Profile& profile) {
 }
 
 ProfilePoint profile_at(const Profile& profile, double u) {
-  const double turn = u - std::floor(u);
+  const double turn = u >= 0 && u < 1 ? u : u - std::floor(u);
   const double a = profile.straight_across / 2;
   const double b = profile.straight_along / 2;
   if (a == 0 && b == 0) return arc_point(profile, Eigen::Vector2d::Zero(), 2 * pi * turn);

@@ -1,56 +1,83 @@
 #include "core/geometry/ridge.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "core/base/error.hpp"
+#include "core/base/text.hpp"
 
 namespace ridgeline::geometry {
 namespace {
 
-// Height where the generator line of the wall through p meets F = 0. With p fixed F is a quadratic
-// in z, A z^2 / 2 + B z + C; a plane has A = 0. For the source's cylinder this is [E 4].
+[[noreturn]] void refuse(double u) {
+  throw Error(
+      ErrorCode::HoleMissesBody,
+      "the generator of the hole wall at u = " + text(u) + " does not meet the body surface",
+      {.parameter = u});
+}
+
+// Height where the generator line of the wall through p meets the body: [E 4] for q.
 double height_at(const RidgeLine& ridge, const Eigen::Vector2d& p, double u) {
-  const Eigen::Vector3d base(p.x(), p.y(), 0);
-  const double A = ridge.F.Q(2, 2);
-  const double B = gradient(ridge.F, base).z();
-  const double C = value(ridge.F, base);
-  if (A == 0) return -C / B;
-  const double square = B * B - 2 * A * C;
-  if (!(square > 0)) {
-    throw Error(ErrorCode::HoleMissesBody,
-                "the generator of the hole wall at u = " + std::to_string(u) +
-                    " does not meet the body surface",
-                {.parameter = u});
-  }
-  const double root = std::sqrt(square);
-  return (-B + (ridge.side == Side::Entry ? root : -root)) / A;
+  const Body& F = ridge.F;
+  if (F.a == 0) return -(F.n.x() * p.x() + F.n.y() * p.y() + F.c) / F.n.z();
+  const double x = p.x() + F.f;
+  const double square = (ridge.R1 - x) * (ridge.R1 + x);
+  if (!(square > 0)) refuse(u);
+  return (ridge.side * std::sqrt(square) - F.hy * p.y()) * ridge.over_hz;
 }
 
 }  // namespace
 
 RidgeLine ridge_line(const Edge& edge) {
-  return {.F = quadric(edge.body), .profile = edge.profile, .m = edge.m, .side = edge.side};
+  RidgeLine line{.F = {},
+                 .profile = edge.profile,
+                 .m = edge.m,
+                 .R1 = 0,
+                 .over_hz = 1,
+                 .side = edge.side == Side::Entry ? 1. : -1.};
+  if (const auto* cylinder = std::get_if<Cylinder>(&edge.body)) {
+    // The axis passes (-f, 0, 0) and has no x part; q is measured across it, upwards.
+    const Eigen::Vector3d& A1 = cylinder->axis;
+    const double up = A1.y() < 0 ? -1 : 1;
+    line.R1 = cylinder->radius;
+    line.over_hz = up / A1.y();
+    line.F = {.a = 1 / cylinder->radius,
+              .f = -cylinder->point.x(),
+              .hy = -up * A1.z(),
+              .hz = up * A1.y(),
+              .c = -cylinder->radius / 2};
+  } else {
+    const Plane& plane = std::get<Plane>(edge.body);
+    line.F.n = plane.normal;
+    line.F.c = -plane.normal.dot(plane.point);
+  }
+  return line;
 }
 
 // Document 000, [0087]..[0093], any profile and body (design: section 3).
 RidgePoint ridge_at(const RidgeLine& ridge, const ProfilePoint& profile, double u) {
   const double m = ridge.m;
+  const Eigen::Vector2d& t2 = profile.tangent;
   const Eigen::Vector3d P(profile.p.x(), profile.p.y(),
                           height_at(ridge, profile.p, u));  // [E 2..7]
   const Eigen::Vector3d n1 = gradient(ridge.F, P);
   const Eigen::Vector3d n2(profile.normal.x(), profile.normal.y(), 0);  // = e1 [E 8]
-  const double c = m * n1.dot(n2);                                      // = -cos(theta)
-  const Eigen::Vector3d v = m * n1 - c * n2;
-  const double s = v.norm();  // = sin(theta) = |n1 x n2|
+  // n1 in the frame (n2, t2, z'); (w, zeta) / s is e2 in it.
+  const double c = m * n1.head<2>().dot(profile.normal);  // = -cos(theta)
+  const double w = m * n1.head<2>().dot(t2);
+  const double zeta = m * n1.z();
+  const double s = std::sqrt(w * w + zeta * zeta);  // = sin(theta) = |n1 x n2|
+  const double over_s = 1 / s;
+  const double tau = over_s * w;
+  const double rho = over_s * zeta;
   return {.P = P,
           .n1 = n1,
           .n2 = n2,
-          .t = n1.cross(n2) / s,
+          .t = m * Eigen::Vector3d(rho * t2.x(), rho * t2.y(), -tau),  // n1 x n2 / s
           .e1 = n2,
-          .e2 = v / s,  // [E 9]
-          .theta = std::atan2(s, -c)};
+          .e2 = {tau * t2.x(), tau * t2.y(), rho},  // [E 9]
+          .theta = std::acos(std::clamp(-c, -1., 1.))};
 }
 
 RidgePoint ridge_at(const RidgeLine& ridge, double u) {

@@ -45,12 +45,44 @@ struct RidgePoint {
   double theta = 0;    ///< material wedge angle [rad]
 };
 
+/// A body surface in the hole frame, where a cylinder's axis A1 has no x' part: with
+/// q = hy y + hz z (distance from A1 across x'),
+///   F = a ((x + f)^2 + q^2) / 2 + n.p + c = 0,
+/// scaled so that grad F is the unit normal on the surface. Cylinder: a = 1 / R1, n = 0. Plane:
+/// a = 0. The Hessian is a (x x^T + h h^T).
+struct Body {
+  double a = 0, f = 0, hy = 0, hz = 0;
+  Eigen::Vector3d n = Eigen::Vector3d::Zero();
+  double c = 0;
+};
+
+inline double value(const Body& F, const Eigen::Vector3d& p) {
+  const double x = p.x() + F.f;
+  const double q = F.hy * p.y() + F.hz * p.z();
+  return 0.5 * F.a * (x * x + q * q) + F.n.dot(p) + F.c;
+}
+inline Eigen::Vector3d gradient(const Body& F, const Eigen::Vector3d& p) {
+  const double q = F.a * (F.hy * p.y() + F.hz * p.z());
+  return Eigen::Vector3d(F.a * (p.x() + F.f), q * F.hy, q * F.hz) + F.n;
+}
+/// H v with the Hessian H.
+inline Eigen::Vector3d hessian_times(const Body& F, const Eigen::Vector3d& v) {
+  const double q = F.a * (F.hy * v.y() + F.hz * v.z());
+  return {F.a * v.x(), q * F.hy, q * F.hz};
+}
+/// v.H w.
+inline double second(const Body& F, const Eigen::Vector3d& v, const Eigen::Vector3d& w) {
+  return F.a * (v.x() * w.x() + (F.hy * v.y() + F.hz * v.z()) * (F.hy * w.y() + F.hz * w.z()));
+}
+
 /// An edge made ready for many evaluations.
 struct RidgeLine {
-  Quadric F;        ///< body surface SS
-  Profile profile;  ///< wall SW
-  double m = 1;
-  Side side = Side::Entry;
+  Body F;              ///< body surface SS
+  Profile profile;     ///< wall SW
+  double m = 1;        ///< material sign
+  double R1 = 0;       ///< of a cylinder, 0 for a plane [mm]
+  double over_hz = 1;  ///< 1 / F.hz
+  double side = 1;     ///< of q: +1 entry, -1 exit
 };
 RidgeLine ridge_line(const Edge& edge);
 
