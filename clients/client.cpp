@@ -36,7 +36,7 @@ jobs::Answer Client::ask(std::string_view job, std::string_view format,
                        patience);
 }
 
-jobs::Answer Client::ask(const ridgeline_wire_Chamfer& chamfer, std::string_view format,
+jobs::Answer Client::ask(const ridgeline_wire_ChamferJob& chamfer, std::string_view format,
                          const Patience& patience) noexcept {
   return session_->ask(&chamfer, Channel::Compute, std::string(format), patience);
 }

@@ -12,7 +12,7 @@
 #include "jobs/answer.hpp"
 #include "service/instance_status.hpp"
 
-struct ridgeline_wire_Chamfer;
+struct ridgeline_wire_ChamferJob;
 
 namespace ridgeline::client {
 
@@ -54,7 +54,7 @@ public:
   jobs::Answer ask(std::string_view job, std::string_view format,
                    const Patience& patience = {}) noexcept;
   /// A chamfer job field by field; see idl/ridgeline.idl.
-  jobs::Answer ask(const ridgeline_wire_Chamfer& chamfer, std::string_view format,
+  jobs::Answer ask(const ridgeline_wire_ChamferJob& chamfer, std::string_view format,
                    const Patience& patience = {}) noexcept;
   /// The text comes back as the answer's text: the cost of the way alone.
   jobs::Answer echo(std::string_view text, const Patience& patience = {}) noexcept;

@@ -20,7 +20,7 @@
 namespace ridgeline::client {
 
 using Clock = std::chrono::steady_clock;
-using Call = std::variant<wire::Call, const ridgeline_wire_Chamfer*>;
+using Call = std::variant<wire::Call, const ridgeline_wire_ChamferJob*>;
 
 /// Entities, instances and requests under way of one client.
 class Client::Session {

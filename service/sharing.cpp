@@ -22,8 +22,8 @@ Change change_of(const ridgeline_wire_Definition& sample) {
           .revision = sample.revision,
           .time = sample.time,
           .origin = sample.origin,
-          .instance = sample.instance,
-          .request = sample.request,
+          .instance = sample.made_at,
+          .request = sample.asked_by,
           .removed = sample.removed,
           .document = sample.document};
 }
@@ -51,8 +51,8 @@ void write(const dds::Entity& writer, const Change& change) {
   sample.revision = change.revision;
   wire::copy(change.origin, sample.origin);
   sample.time = change.time;
-  wire::copy(change.instance, sample.instance);
-  wire::copy(change.request, sample.request);
+  wire::copy(change.instance, sample.made_at);
+  wire::copy(change.request, sample.asked_by);
   sample.removed = change.removed;
   sample.document = wire::borrowed(change.document);
   dds::check(dds_write(writer.get(), &sample), "dds_write");

@@ -57,7 +57,7 @@ Json section_angle(const dds_sequence_double& angles) {
   return table;
 }
 
-Json output(const ridgeline_wire_Chamfer& c) {
+Json output(const ridgeline_wire_ChamferJob& c) {
   Json output = Json::object();
   if ((c.given & ridgeline_wire_GIVEN_PROGRAM) != 0) output["program"] = c.program;
   if ((c.given & ridgeline_wire_GIVEN_DECIMALS) != 0) output["decimals"] = c.decimals;
@@ -121,7 +121,7 @@ Participant participant_of(const std::uint8_t (&guid)[16]) {
   return participant;
 }
 
-Json chamfer_job(const ridgeline_wire_Chamfer& c) {
+Json chamfer_job(const ridgeline_wire_ChamferJob& c) {
   const auto is_given = [&c](std::uint32_t bit) { return (c.given & bit) != 0; };
   Json job = {{"job", "chamfer"},
               {"workpiece", jobs::valid_utf8(c.workpiece)},
@@ -219,7 +219,7 @@ ridgeline_wire_Request borrow(const Sent& sent, const Call& call) {
   return sample;
 }
 
-ridgeline_wire_Request borrow(const Sent& sent, const ridgeline_wire_Chamfer& chamfer) {
+ridgeline_wire_Request borrow(const Sent& sent, const ridgeline_wire_ChamferJob& chamfer) {
   ridgeline_wire_Request sample = header(sent);
   sample.call._d = ridgeline_wire_OPERATION_CHAMFER;
   sample.call._u.chamfer = chamfer;

@@ -57,7 +57,7 @@ Request request(const ridgeline_wire_Request& sample);
 
 /// The job document of a typed chamfer. Throws Error{BadInput} for numbers that are not finite and
 /// enumerators that are not known.
-nlohmann::json chamfer_job(const ridgeline_wire_Chamfer& chamfer);
+nlohmann::json chamfer_job(const ridgeline_wire_ChamferJob& chamfer);
 
 /// What a request asks, borrowed: write the sample while the arguments live.
 struct Sent {
@@ -69,7 +69,7 @@ struct Sent {
 };
 using Call = std::pair<CallKind, const char*>;  ///< Job or Echo and its text
 ridgeline_wire_Request borrow(const Sent& sent, const Call& call);
-ridgeline_wire_Request borrow(const Sent& sent, const ridgeline_wire_Chamfer& chamfer);
+ridgeline_wire_Request borrow(const Sent& sent, const ridgeline_wire_ChamferJob& chamfer);
 
 InstanceStatus instance_status(const ridgeline_wire_Instance& sample);
 

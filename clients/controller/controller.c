@@ -215,7 +215,7 @@ static bool ask(dds_entity_t participant, ridgeline_wire_Request *request, doubl
   return answer->is_complete;
 }
 
-static bool parse(int argc, char **argv, dds_domainid_t *domain, double *timeout, ridgeline_wire_Chamfer *job) {
+static bool parse(int argc, char **argv, dds_domainid_t *domain, double *timeout, ridgeline_wire_ChamferJob *job) {
   int at = 1;
   for (; at + 1 < argc && argv[at][0] == '-'; at += 2) {
     if (strcmp(argv[at], "-d") == 0)
@@ -242,7 +242,7 @@ int main(int argc, char **argv) {
   char none[] = "";
   ridgeline_wire_Request request;
   memset(&request, 0, sizeof request); /* whatever is not set below has the default of the job */
-  ridgeline_wire_Chamfer *job = &request.call._u.chamfer;
+  ridgeline_wire_ChamferJob *job = &request.call._u.chamfer;
   request.call._d = ridgeline_wire_OPERATION_CHAMFER;
   job->tool_axis = job->dialect = job->work_offset = none;
   if (!parse(argc, argv, &domain, &timeout, job)) {

@@ -64,7 +64,4 @@ protected:
 /// "ok", or the error's code.
 std::string code(const jobs::Answer& answer);
 
-/// A job that takes some seconds and heeds cancelling.
-std::string long_job();
-
 }  // namespace ridgeline

@@ -345,7 +345,7 @@ TEST_F(Loopback, NonsenseOnTheWireDoesNotHurt) {
     dds::check(dds_write(raw.writer.get(), &sample), "write");
   }
   for (const auto& [number, error] : raw.take(4)) EXPECT_EQ(error, "bad_input") << number;
-  ridgeline_wire_Chamfer chamfer{};
+  ridgeline_wire_ChamferJob chamfer{};
   char text[] = "", bad[] = "\xff\xfe";
   chamfer.workpiece = chamfer.hole = chamfer.tool = bad;
   chamfer.tool_axis = chamfer.dialect = chamfer.work_offset = text;

@@ -171,9 +171,9 @@ TEST(Assembler, RefusesSamplesThatDoNotFit) {
   expect_refused([](ridgeline_wire_Reply& sample) { sample.document = borrowed("{]"); });
 }
 
-ridgeline_wire_Chamfer typed() {
+ridgeline_wire_ChamferJob typed() {
   static char tube[] = "tube-40", hole[] = "H1", tool[] = "12", none[] = "";
-  ridgeline_wire_Chamfer chamfer{};
+  ridgeline_wire_ChamferJob chamfer{};
   chamfer.workpiece = tube;
   chamfer.hole = hole;
   chamfer.tool = tool;
@@ -191,7 +191,7 @@ TEST(ChamferJob, AClearedStructAsksWithTheDefaults) {
 }
 
 TEST(ChamferJob, EveryFieldArrives) {
-  ridgeline_wire_Chamfer c = typed();
+  ridgeline_wire_ChamferJob c = typed();
   char axis[] = "hole", dialect[] = "siemens", offset[] = "G55", tool[] = "lollipop 6";
   double angles[] = {0, 45, 90, 50};
   c.tool = tool;
@@ -237,7 +237,7 @@ TEST(ChamferJob, EveryFieldArrives) {
 
 template <class F>
 std::string refused_field(F&& change) {
-  ridgeline_wire_Chamfer c = typed();
+  ridgeline_wire_ChamferJob c = typed();
   change(c);
   try {
     chamfer_job(c);
