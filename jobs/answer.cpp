@@ -21,11 +21,14 @@ struct Kind {
 constexpr std::array<std::string_view, 4> predict_formats{"json", "csv", "svg", "nc"};
 constexpr std::array<std::string_view, 1> json_only{"json"};
 constexpr std::array<std::string_view, 5> chamfer_formats{"json", "nc", "cl", "csv", "svg"};
+constexpr std::array<std::string_view, 4> cycle_formats{"json", "nc", "csv", "svg"};
+constexpr std::array<std::string_view, 6> macro_formats{"json", "nc",    "csv",
+                                                        "svg",  "trace", "text"};
 
 /// Every kind of job. A new one is one line here and one function in kinds.hpp.
 constexpr std::array kinds{
-    Kind{"chamfer", chamfer, chamfer_formats},
-    Kind{"predict", predict, predict_formats},
+    Kind{"chamfer", chamfer, chamfer_formats},   Kind{"cycle", cycle, cycle_formats},
+    Kind{"macro", macro_program, macro_formats}, Kind{"predict", predict, predict_formats},
     Kind{"verify", verify, json_only},
 };
 

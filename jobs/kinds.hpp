@@ -20,7 +20,10 @@ struct Request {
 // chamfer.cpp. It reads the document with reader.hpp, throws Error (answer() makes the error
 // object) and returns the result with its bulk numbers as arrays. A new kind is one declaration
 // here, one line in the table of answer.cpp and one in CMakeLists.txt.
+
 Answer chamfer(const Request& request);
+Answer cycle(const Request& request);
+Answer macro_program(const Request& request);
 Answer predict(const Request& request);
 Answer verify(const Request& request);
 

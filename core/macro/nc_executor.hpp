@@ -74,7 +74,7 @@ private:
   Eigen::Vector2d arc_centre(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                              bool counter_clockwise) const;
   void move_to(Segment segment, const Axes& target);
-  Segment segment(MoveKind kind) const;
+  Segment segment(MoveKind kind);
   void send(const Segment& segment);
   double feed_of(double length) const;
   double side_offset() const;

@@ -88,14 +88,22 @@ void NcExecutor::polar_target(Axes& to) {
   to[second] = (is_absolute ? 0 : state_.position[second]) + state_.polar[0] * std::sin(angle);
 }
 
-Segment NcExecutor::segment(MoveKind kind) const {
+Segment NcExecutor::segment(MoveKind kind) {
   Segment segment;
   segment.kind = kind;
   segment.plane = plane_of(state_.modal);
   segment.program = program_;
   segment.line = line_;
   segment.from = linear(state_.machine);
-  segment.shift = linear(shift_of(state_));
+  WorkShift shift;
+  shift.shift = linear(shift_of(state_));
+  shift.local = linear(state_.local) + linear(state_.preset);
+  shift.work_offset =
+      state_.modal.work_offset == 541 ? 541000 + state_.modal.P : state_.modal.work_offset / 10;
+  shift.length_code = state_.modal.length / 10;
+  shift.H = state_.modal.H;
+  segment.shift = shift.shift;
+  segment.shift_index = recorder_.shift_index(shift);
   segment.offset = kind == MoveKind::Dwell ? 0 : side_offset();
   return segment;
 }

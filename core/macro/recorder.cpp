@@ -31,19 +31,23 @@ ArcDetail arc_detail(const Segment& segment) {
 
 }  // namespace
 
+std::uint32_t Recorder::shift_index(const WorkShift& shift) {
+  if (result_.shifts.empty() || !(result_.shifts.back() == shift)) {
+    result_.shifts.push_back(shift);
+  }
+  return static_cast<std::uint32_t>(result_.shifts.size() - 1);
+}
+
 void Recorder::move(const Segment& segment) {
   if (result_.motion.size() >= move_limit_) {
     raise(AlarmNumber::MemoryLimit, std::to_string(move_limit_) + " moves");
-  }
-  if (result_.shifts.empty() || result_.shifts.back() != segment.shift) {
-    result_.shifts.push_back(segment.shift);
   }
   Move& move = result_.motion.emplace_back();
   move.kind = segment.kind;
   move.machine_fixed = segment.machine_fixed;
   move.program = segment.program;
   move.line = segment.line;
-  move.shift = static_cast<std::uint32_t>(result_.shifts.size() - 1);
+  move.shift = segment.shift_index;
   move.to = segment.to - segment.shift;
   machine_ = segment.to;
   double feed = rapid_feed_;

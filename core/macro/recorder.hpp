@@ -13,6 +13,8 @@ public:
   Recorder(Result& result, std::size_t move_limit, double rapid_feed)
       : result_(result), move_limit_(move_limit), rapid_feed_(rapid_feed) {}
 
+  /// Index for Segment::shift_index; the table grows when the shift changes.
+  std::uint32_t shift_index(const WorkShift& shift);
   void move(const Segment& segment);
   void event(std::string word, int program, int line);
   void axis(char axis, double to);

@@ -37,6 +37,16 @@ struct ArcDetail {
   int turns = 0;  ///< full circles that it contains
 };
 
+/// What turns work into machine coordinates during some moves.
+struct WorkShift {
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< machine minus work coordinates
+  Eigen::Vector3d local = Eigen::Vector3d::Zero();  ///< the part that G52 and G92 give
+  int work_offset = 54;                             ///< 54..59; G54.1 Pn: 541000 + n
+  int length_code = 49;                             ///< 43, 44, 49
+  int H = 0;
+  friend bool operator==(const WorkShift&, const WorkShift&) = default;
+};
+
 /// Position of an axis other than X, Y, Z that a move brought it to [deg or mm].
 struct AxisMove {
   std::size_t move = 0;  ///< index
@@ -67,7 +77,7 @@ struct TraceStep {
 struct Result {
   std::optional<Alarm> alarm;
   std::vector<Move> motion;
-  std::vector<Eigen::Vector3d> shifts;  ///< machine minus work coordinates
+  std::vector<WorkShift> shifts;
   std::vector<ArcDetail> arcs;
   std::vector<double> dwells;  ///< [s]
   std::vector<AxisMove> axes;
@@ -88,7 +98,7 @@ struct Result {
 
 /// Machine position of the end of a move [mm].
 inline Eigen::Vector3d machine_of(const Result& result, const Move& move) {
-  return move.to + result.shifts[move.shift];
+  return move.to + result.shifts[move.shift].shift;
 }
 /// Of a move of kind Arc.
 inline const ArcDetail& arc_of(const Result& result, const Move& move) {

@@ -20,6 +20,7 @@ struct Segment {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< third component of no meaning
   double sweep = 0;                                  ///< of an arc, > 0 [rad]
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();   ///< machine minus work coordinates
+  std::uint32_t shift_index = 0;                     ///< of Result::shifts
   double feed = 0;
   double seconds = 0;
   double offset = 0;   ///< cutter compensation: to the left of the path, < 0 to the right; 0: none
