@@ -24,6 +24,9 @@ void add_job_commands(CLI::App& app, Selected& selected);
 /// library put, get, list, ...
 void add_library_commands(CLI::App& app, Selected& selected);
 
+/// macro run, check and make.
+void add_macro_commands(CLI::App& app, Selected& selected);
+
 /// status: the live instances of the service.
 void add_status_command(CLI::App& app, Selected& selected);
 

@@ -67,6 +67,7 @@ int run(int argc, char** argv) {
   add_options(app, options);
   add_job_commands(app, selected);
   add_library_commands(app, selected);
+  add_macro_commands(app, selected);
   add_batch_command(app, selected);
   add_status_command(app, selected);
   try {

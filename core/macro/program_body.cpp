@@ -175,8 +175,13 @@ std::vector<Piece> pieces_of(const Cycle& cycle) {
 }  // namespace
 
 std::string place_words(const Cycle& cycle, const std::string& along, const std::string& y) {
-  if (cycle.edge == EdgeShape::Straight) return "X" + along + " Y[#1+" + y + "]";
-  const std::string rho = "[#19-#20*" + y + "]";
+  // A sign may not follow an operator: "-#27" is subtracted, not added.
+  const bool is_negative = y.starts_with('-');
+  const std::string size = is_negative ? y.substr(1) : y;
+  if (cycle.edge == EdgeShape::Straight) {
+    return "X" + along + " Y[#1" + (is_negative ? "-" : "+") + size + "]";
+  }
+  const std::string rho = std::string("[#19") + (is_negative ? "+" : "-") + "#20*" + size + "]";
   return "X[#24+" + rho + "*COS[" + along + "]] Y[#25+" + rho + "*SIN[" + along + "]]";
 }
 

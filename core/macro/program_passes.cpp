@@ -12,7 +12,8 @@ namespace {
 void write_section(const Cycle& cycle, MacroText& text) {
   const auto y_line = [&](const std::string& y, const std::string& rest) {
     if (cycle.edge == EdgeShape::Straight) {
-      text.line("G01 Y[#1+" + y + "]" + rest);
+      const bool is_negative = y.starts_with('-');  // a sign may not follow an operator
+      text.line("G01 Y[#1" + (is_negative ? y : "+" + y) + "]" + rest);
     } else {
       text.line("G01 " + place_words(cycle, "#32", y) + rest);
     }
