@@ -16,7 +16,18 @@ Chunks::Chunks(jobs::Answer answer, std::uint64_t answer_number)
     : answer_(std::move(answer)),
       number_(answer_number),
       document_(answer_.document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) {
-  if (jobs::is_error(answer_)) code_ = answer_.document.at("error").value("code", "internal");
+  if (jobs::is_error(answer_)) {
+    const nlohmann::json& error = answer_.document.at("error");
+    const auto text = [&](const char* key) { return error.value(key, std::string()); };
+    code_ = error.value("code", "internal");
+    error_ = {static_cast<std::int32_t>(error_code(code_).value_or(ErrorCode::Internal)),
+              text("code"),
+              text("message"),
+              text("field"),
+              text("value"),
+              text("limit")};
+  }
+  answer_.document = nullptr;
   for (const jobs::Array& array : answer_.arrays) numbers_ += array.values.size();
   bytes_ = document_.size() + answer_.text.size() + numbers_ * sizeof(double);
   plan();
@@ -69,20 +80,15 @@ void Chunks::with_sample(std::uint32_t index, const RequestId& id, const std::st
   sample.text_bytes = answer_.text.size();
   sample.numbers = numbers_;
 
-  std::string error_texts[5];
-  if (jobs::is_error(answer_)) {
-    sample.status = ridgeline_wire_STATUS_ERROR;
-    const nlohmann::json& error = answer_.document.at("error");
-    const char* const keys[] = {"code", "message", "field", "value", "limit"};
-    for (int i = 0; i < 5; ++i) error_texts[i] = error.value(keys[i], std::string());
-    sample.error.number =
-        static_cast<std::int32_t>(error_code(code_).value_or(ErrorCode::Internal));
-  }
-  sample.error.code = borrowed(error_texts[0]);
-  sample.error.message = borrowed(error_texts[1]);
-  sample.error.field = borrowed(error_texts[2]);
-  sample.error.value = borrowed(error_texts[3]);
-  sample.error.limit = borrowed(error_texts[4]);
+  static const ErrorTexts none;
+  const ErrorTexts& error = error_ ? *error_ : none;
+  sample.status = error_ ? ridgeline_wire_STATUS_ERROR : ridgeline_wire_STATUS_OK;
+  sample.error.number = error.number;
+  sample.error.code = borrowed(error.code);
+  sample.error.message = borrowed(error.message);
+  sample.error.field = borrowed(error.field);
+  sample.error.value = borrowed(error.value);
+  sample.error.limit = borrowed(error.limit);
 
   const std::string document = document_.substr(chunk.document.begin, chunk.document.size);
   const std::string text = answer_.text.substr(chunk.text.begin, chunk.text.size);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@ inline constexpr std::size_t chunk_bytes = 192 * 1024;
 /// Most numbers that one answer may hold.
 inline constexpr std::uint64_t max_numbers = 1ULL << 31;
 
-/// An answer cut into samples. Keeps the answer; each sample is made when it is sent.
+/// An answer cut into samples. Keeps the answer, its document as text alone: many are kept for
+/// duplicates, and the tree is several times as large. Each sample is made when it is sent.
 class Chunks {
 public:
   /// `answer_number` differs for each computation of this instance.
@@ -44,9 +46,16 @@ private:
   };
   void plan();
 
-  jobs::Answer answer_;
+  /// Of an error object, for readers without JSON.
+  struct ErrorTexts {
+    std::int32_t number = 0;
+    std::string code, message, field, value, limit;
+  };
+
+  jobs::Answer answer_;  ///< without its document
   std::uint64_t number_;
   std::string document_;
+  std::optional<ErrorTexts> error_;
   std::string code_ = "ok";
   std::size_t bytes_ = 0;
   std::uint64_t numbers_ = 0;

@@ -1,5 +1,6 @@
 #include "service/server.hpp"
 
+#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@ using namespace std::chrono_literals;
 
 constexpr auto tick_interval = 100ms;
 constexpr auto drain_limit = 10s;
+constexpr auto trim_interval = 10s;  // memory that large answers left goes back to the system
 
 std::int64_t now() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -216,6 +218,9 @@ void Server::tick() {
   replies_.refresh();
   work_.tick();
   announce();
+  if (Clock::now() < next_trim_) return;
+  malloc_trim(0);
+  next_trim_ = Clock::now() + trim_interval;
 }
 
 void Server::run() {

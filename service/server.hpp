@@ -62,6 +62,7 @@ private:
   Replies replies_;
   Work work_;
   std::atomic<int> stops_ = 0;
+  Clock::time_point next_trim_;
 
   dds::Entity subscriber_;  ///< in the partition of the instance
   dds::Entity instance_topic_;

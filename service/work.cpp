@@ -181,7 +181,7 @@ void Work::compute(const TaskPointer& task) {
     task->state = State::Answered;
     task->chunks = chunks;
     task->operation = std::move(ran.operation);
-    task->request.text = {};
+    std::string().swap(task->request.text);  // `= {}` would keep its memory
     remember(task);
   }
   replies_.send(outgoing(task));

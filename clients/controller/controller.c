@@ -205,6 +205,7 @@ static bool ask(dds_entity_t participant, ridgeline_wire_Request *request, doubl
       is_sent = true;
     }
     if (is_sent && !is_matched(writer, replies)) { /* the instance is lost: ask again, with the same id */
+      answer->chunks = 0;                          /* what came of its answer is no part of another's */
       dds_delete(dds_get_parent(writer));
       writer = 0;
       is_sent = false;

@@ -231,6 +231,18 @@ TEST_F(LoopbackJobs, AnInstanceKilledInMidRequestIsReplacedByAnother) {
   EXPECT_EQ(code(answer), "ok") << answer.document;
 }
 
+/// Holds a file the lines "x y z" of these points?
+void expect_centres(const std::string& file, const Json& expected) {
+  std::ifstream stream(file);
+  std::size_t count = 0;
+  for (double x = 0, y = 0, z = 0; stream >> x >> y >> z; ++count) {
+    ASSERT_LT(count, expected.size());
+    EXPECT_EQ(Json({x, y, z}), expected[count]);
+  }
+  EXPECT_EQ(count, expected.size());
+  EXPECT_GT(count, 0u);
+}
+
 TEST_F(LoopbackJobs, AControllerInPlainCAsksWithoutJson) {
   const std::string out = (folder_ / "centres").string();
   const std::string uri = "file://" RIDGELINE_SOURCE "/service/config/loopback.xml";
@@ -246,13 +258,7 @@ TEST_F(LoopbackJobs, AControllerInPlainCAsksWithoutJson) {
   Json job = by_name();
   job.erase("points");
   const Json expected = lasting(client_->ask(job.dump(), "json")).at("centres");
-  std::ifstream stream(out);
-  std::size_t count = 0;
-  for (double x = 0, y = 0, z = 0; stream >> x >> y >> z; ++count) {
-    ASSERT_LT(count, expected.size());
-    EXPECT_EQ(Json({x, y, z}), expected[count]);
-  }
-  EXPECT_EQ(count, expected.size());
+  expect_centres(out, expected);
   EXPECT_EQ(run("13"), 1);
   std::stringstream log;
   log << std::ifstream(folder_ / "controller.log").rdbuf();
@@ -264,6 +270,31 @@ TEST_F(LoopbackJobs, AControllerInPlainCAsksWithoutJson) {
                 .wait(5s),
             3);
   unsetenv("CYCLONEDDS_URI");
+}
+
+TEST_F(Loopback, AClientOnAnotherDdsAsksWithTheSameIdl) {
+  setenv("DDS_TAG", "", 1);  // only Cyclone DDS knows tags
+  const auto service = start("north");
+  Client client(options());
+  ASSERT_EQ(code(client.ask(definitions, "json")), "ok");
+  const std::string out = (folder_ / "centres").string();
+  const std::string domain = std::to_string(domain_);
+  const auto run = [&](const std::string& tool, const std::string& points) {
+    return Process({"/bin/sh", "-c", "exec \"$@\" >" + out, "sh", FAST_CLIENT, domain, "20",
+                    "tube-40", "H1", tool, "0.5", points},
+                   folder_ / "fast.log")
+        .wait(30s);
+  };
+  EXPECT_EQ(run("12", "72"), 0);
+  expect_centres(out, lasting(client.ask(by_name().dump(), "json")).at("centres"));
+  EXPECT_EQ(run("12", "60000"), 0);  // some forty chunks
+  Json many = by_name();
+  many["points"] = 60'000;
+  expect_centres(out, lasting(client.ask(many.dump(), "json")).at("centres"));
+  EXPECT_EQ(run("13", "72"), 1);
+  std::stringstream log;
+  log << std::ifstream(folder_ / "fast.log").rdbuf();
+  EXPECT_NE(log.str().find("unknown_tool"), std::string::npos) << log.str();
 }
 
 }  // namespace
