@@ -20,6 +20,7 @@ struct Kind {
 
 constexpr std::array<std::string_view, 4> predict_formats{"json", "csv", "svg", "nc"};
 constexpr std::array<std::string_view, 1> json_only{"json"};
+constexpr std::array<std::string_view, 4> units_formats{"json", "text", "svg", "html"};
 constexpr std::array<std::string_view, 5> chamfer_formats{"json", "nc", "cl", "csv", "svg"};
 constexpr std::array<std::string_view, 4> cycle_formats{"json", "nc", "csv", "svg"};
 constexpr std::array<std::string_view, 6> macro_formats{"json", "nc",    "csv",
@@ -29,7 +30,7 @@ constexpr std::array<std::string_view, 6> macro_formats{"json", "nc",    "csv",
 constexpr std::array kinds{
     Kind{"chamfer", chamfer, chamfer_formats},   Kind{"cycle", cycle, cycle_formats},
     Kind{"macro", macro_program, macro_formats}, Kind{"predict", predict, predict_formats},
-    Kind{"verify", verify, json_only},
+    Kind{"units", units_program, units_formats}, Kind{"verify", verify, json_only},
 };
 
 const Kind& kind_of(const nlohmann::json& document) {

@@ -2,6 +2,7 @@
 
 #include "jobs/definitions.hpp"
 #include "jobs/limits.hpp"
+#include "jobs/units_product.hpp"
 
 namespace ridgeline::jobs {
 namespace {
@@ -30,6 +31,16 @@ void check_material(const Value& value) {
   object.finish();
 }
 
+/// A part and what was found in it: what turning programs are planned from.
+void check_part(const Value& value) {
+  Object object(value);
+  object.required("kind");
+  object.required("name").name();
+  read_product(object.required("product"));
+  object.has("placement");
+  object.finish();
+}
+
 struct DefinitionKind {
   std::string_view name;
   void (*check)(const Value&);
@@ -38,6 +49,7 @@ constexpr std::array kinds{
     DefinitionKind{"workpiece", check_workpiece},
     DefinitionKind{"tool", check_tool},
     DefinitionKind{"material", check_material},
+    DefinitionKind{"part", check_part},
 };
 
 }  // namespace

@@ -25,6 +25,7 @@ Answer chamfer(const Request& request);
 Answer cycle(const Request& request);
 Answer macro_program(const Request& request);
 Answer predict(const Request& request);
+Answer units_program(const Request& request);
 Answer verify(const Request& request);
 
 }  // namespace ridgeline::jobs

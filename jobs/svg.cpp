@@ -133,6 +133,21 @@ void Svg::polygon(const View& view, const std::vector<Vector2d>& line, std::stri
   out_ += "\"/>\n";
 }
 
+void Svg::area(const View& view, const std::vector<std::vector<Vector2d>>& loops,
+               std::string_view style) {
+  fmt::format_to(std::back_inserter(out_), "<path class=\"{}\" fill-rule=\"evenodd\" d=\"", style);
+  for (const std::vector<Vector2d>& loop : loops) {
+    out_ += "M";
+    points(view, loop);
+    out_ += "Z ";
+  }
+  out_ += "\"/>\n";
+}
+
+void Svg::add_style(std::string_view css) {
+  out_ += fmt::format("<style>{}</style>\n", css);
+}
+
 void Svg::circle(const View& view, const Vector2d& centre, double radius, std::string_view style) {
   const Vector2d at = on_sheet(view, centre);
   const double pixels = std::abs(on_sheet(view, centre + Vector2d(radius, 0)).x() - at.x());

@@ -27,12 +27,18 @@ public:
                 std::string_view style);
   void polygon(const View& view, const std::vector<Eigen::Vector2d>& points,
                std::string_view style);
+  /// Closed loops as one area; what an even number of them encloses is a hole.
+  void area(const View& view, const std::vector<std::vector<Eigen::Vector2d>>& loops,
+            std::string_view style);
   void circle(const View& view, const Eigen::Vector2d& centre, double radius,
               std::string_view style);
   void line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, std::string_view style);
   enum class Anchor { Start, Middle, End };
   void text(const Eigen::Vector2d& at, std::string_view text, std::string_view style = "label",
             Anchor anchor = Anchor::Start);
+
+  /// Rules for classes beside those of every drawing.
+  void add_style(std::string_view css);
 
   /// The whole document; the writer is spent.
   std::string finish() &&;

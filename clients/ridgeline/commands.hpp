@@ -27,6 +27,9 @@ void add_library_commands(CLI::App& app, Selected& selected);
 /// macro run, check and make.
 void add_macro_commands(CLI::App& app, Selected& selected);
 
+/// units plan, show, edit: turn-mill programs.
+void add_units_commands(CLI::App& app, Selected& selected);
+
 /// status: the live instances of the service.
 void add_status_command(CLI::App& app, Selected& selected);
 

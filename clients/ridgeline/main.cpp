@@ -69,6 +69,7 @@ int run(int argc, char** argv) {
   add_library_commands(app, selected);
   add_macro_commands(app, selected);
   add_batch_command(app, selected);
+  add_units_commands(app, selected);
   add_status_command(app, selected);
   try {
     app.parse(argc, argv);

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "core/units/program.hpp"
+
+namespace ridgeline::jobs {
+
+/// The half section of a program as SVG: stock, product, every unit in its colour, milled features
+/// where they are, and a legend.
+std::string units_svg(const units::Program& program);
+
+/// The same on a page, with the tree beside it.
+std::string units_html(const units::Program& program);
+
+/// The tree and the volumes for a terminal.
+std::string units_text(const units::Program& program);
+
+}  // namespace ridgeline::jobs
