@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/base/error.hpp"
+#include "core/base/root.hpp"
 #include "core/chamfer/section_angle.hpp"
 
 namespace ridgeline::chamfer {
@@ -77,6 +79,37 @@ BorderRates border_rates(const Section& section, const SectionPoint& point, doub
   rates.G2 = A + S_rate * e1 + T_rate * e2;
   rates.G1 = rates.G2 + W * d_rate;
   return rates;
+}
+
+// How far G2 is past a joint along the profile grows with u: a bracket about the joint, then a
+// root.
+std::vector<double> wall_breaks(const Section& section) {
+  constexpr double least_reach = 1e-6;  // of the loop
+  constexpr double most_reach = 0.1;
+  const geometry::Profile& profile = section.ridge.profile;
+  std::vector<double> breaks;
+  for (const double joint : geometry::joints(profile)) {
+    const geometry::ProfilePoint at = geometry::profile_at(profile, joint);
+    const auto past = [&](double u) -> RootSample {
+      const SectionPoint point = section_at(section, u);
+      return {.value = at.tangent.dot(point.G2.head<2>() - at.p),
+              .slope = at.tangent.dot(border_rates(section, point, u).G2.head<2>())};
+    };
+    try {
+      double reach = least_reach;
+      while (reach < most_reach &&
+             !(past(joint - reach).value < 0 && past(joint + reach).value > 0)) {
+        reach *= 4;
+      }
+      if (!(reach < most_reach)) continue;
+      const double tolerance = 1e-15 * geometry::perimeter(profile);
+      breaks.push_back(rising_root(past, joint - reach, joint + reach, joint, tolerance).x);
+    } catch (const Error& error) {
+      // No chamfer is possible there, so no border bends; who asks for that section is told why.
+      if (error.code() != ErrorCode::WidthTooLarge) throw;
+    }
+  }
+  return breaks;
 }
 
 }  // namespace ridgeline::chamfer

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "core/chamfer/section.hpp"
 
@@ -18,5 +19,10 @@ struct BorderRates {
 /// Implicit differentiation of the section method's equations (design: section 4) at a point that
 /// section_at() gave for u. At a joint of the profile: of the side that profile_at(u) is on.
 BorderRates border_rates(const Section& section, const SectionPoint& point, double u);
+
+/// Parameters near the joints of the profile where G2, which is not in the same generator as P,
+/// crosses them: the borders bend differently before and behind. Not sorted, not wrapped to [0, 1);
+/// none for a circle and where no chamfer is possible.
+std::vector<double> wall_breaks(const Section& section);
 
 }  // namespace ridgeline::chamfer

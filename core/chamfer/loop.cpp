@@ -46,14 +46,12 @@ void require(const Sampling& sampling) {
   }
 }
 
-// Start, joints of the profile, start + 1: where the curvature of the path may jump.
-std::vector<double> breaks(const geometry::Edge& edge, double start) {
+// Start, corners of the borders, start + 1: where the path may bend.
+std::vector<double> breaks(const Section& section, double start) {
   std::vector<double> out{start};
-  if (!edge.merged) {
-    for (const double joint : geometry::joints(edge.profile)) {
-      const double u = joint < start ? joint + 1 : joint;
-      if (u - start > same_parameter && start + 1 - u > same_parameter) out.push_back(u);
-    }
+  for (const double joint : section.corners) {
+    const double u = joint < start ? joint + 1 : joint;
+    if (u - start > same_parameter && start + 1 - u > same_parameter) out.push_back(u);
   }
   out.push_back(start + 1);
   std::ranges::sort(out);
@@ -78,7 +76,7 @@ Loop loop(const geometry::Edge& edge, const Chamfer& chamfer, const Sampling& sa
                                            : section_at(ready, wrapped(u));
   };
   const double start = wrapped(sampling.start_u);
-  const std::vector<double> ends = breaks(edge, start);
+  const std::vector<double> ends = breaks(ready, start);
   const path::ClosedCurve curve = [&] {
     try {
       return path::model([&](double u) { return at(u).C; }, ends, model_share * sampling.tolerance,

@@ -63,8 +63,9 @@ public:
       ridge = std::min(ridge, (border.P - c).norm());
     }
     const geometry::Solid::Nearest nearest = room_.solid().nearest(c);
+    if (is_chamfer(nearest.point)) return deepest;
     if (geometry::distance(room_.solid().material(), c) <= 0) return room_.D();
-    if (nearest.distance < room_.D() && !is_chamfer(nearest.point)) {
+    if (nearest.distance < room_.D()) {
       deepest = std::max(deepest, room_.D() - nearest.distance);
     }
     return deepest;

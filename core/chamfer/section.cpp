@@ -1,6 +1,7 @@
 #include "core/chamfer/section.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -11,12 +12,15 @@
 #include "core/base/root.hpp"
 #include "core/base/text.hpp"
 #include "core/base/tolerance.hpp"
+#include "core/chamfer/border.hpp"
 #include "core/chamfer/section_angle.hpp"
 
 namespace ridgeline::chamfer {
 namespace {
 
 using std::numbers::pi;
+
+constexpr double same_parameter = 1e-9;  ///< breaks nearer than this are one
 
 // The plane VP at a target point, origin P, axes e1 (S) and e2 (T). The wall is a conic there [E
 // 11], the body another; both are written without dividing by sin(epsilon).
@@ -123,7 +127,7 @@ Ends ends_across(const Plane& vp, double W, double sine, double cosine) {
             .second = vp.q22};
   };
   const double reach = 10 * (W / vp.s + std::abs(T0));
-  const double tolerance = 2e-15 * (W + std::abs(T0));
+  const double tolerance = 2e-15 * (W + std::abs(T0) + vp.profile.R2);
   const Root root = rising_root(body, -1e-3 * W, reach, T0, tolerance);
   const double S = wall_at(vp, root.x).S;
   return {.S1 = S + W * sine,
@@ -224,16 +228,35 @@ void require(const Chamfer& chamfer) {
   }
 }
 
+// Ascending, and of parameters that are one in effect only one.
+void make_ascending(std::vector<double>& parameters) {
+  std::ranges::sort(parameters);
+  const auto [first, last] =
+      std::ranges::unique(parameters, [](double a, double b) { return b - a < same_parameter; });
+  parameters.erase(first, last);
+}
+
 }  // namespace
 
 Section section(const geometry::Edge& edge, const Chamfer& chamfer) {
   require(chamfer);
   const auto& [W, D, section_angle, method] = chamfer;
   Section s{.edge = &edge, .chamfer = &chamfer, .ridge = ridge_line(edge)};
+  s.corners = joints(edge.profile);
   s.CM = std::sqrt((D - W / 2) * (D + W / 2));  // [E 16]
   if (const auto* constant = std::get_if<ConstantAngle>(&section_angle)) {
     s.sin_delta = std::sin(constant->delta);
     s.cos_delta = std::cos(constant->delta);
+  } else if (const auto* table = std::get_if<AngleTable>(&section_angle)) {
+    for (const AngleTable::Entry& entry : table->entries) {
+      s.corners.push_back(parameter_at(edge.profile, entry.phi));
+    }
+  }
+  make_ascending(s.corners);
+  s.breaks = s.corners;
+  if (method == Method::Swept) {
+    for (const double u : wall_breaks(s)) s.breaks.push_back(u - std::floor(u));
+    make_ascending(s.breaks);
   }
   return s;
 }

@@ -50,7 +50,12 @@ struct Section {
   const Chamfer* chamfer = nullptr;
   geometry::RidgeLine ridge;
   double CM = 0;                        ///< from C to the middle of G1 and G2 [E 16]
-  double sin_delta = 0, cos_delta = 0;  /// of a constant section angle
+  double sin_delta = 0, cos_delta = 0;  ///< of a constant section angle
+  /// u in [0, 1), ascending, where the borders may have corners: joints of the profile, entries of
+  /// an angle table.
+  std::vector<double> corners = {};
+  /// Corners and, for the swept method, where else the borders bend anew (wall_breaks()).
+  std::vector<double> breaks = {};
 };
 
 /// Throws Error: BadInput (W, D or an angle out of range), WidthTooLarge (W >= 2 D).

@@ -35,21 +35,6 @@ const geometry::Hole& hole_of(const Job& job) {
   return *hole;
 }
 
-/// u of the profile point in the direction phi from the hole axis; of a merged edge, the angle
-/// itself. The polar angle grows with u: bisection in the turn that has phi.
-double parameter_at_angle(const geometry::Edge& edge, double phi) {
-  const double turn = wrapped(phi / full_turn);
-  const bool is_round = edge.profile.straight_along == 0 && edge.profile.straight_across == 0;
-  if (edge.merged || is_round) return turn;
-  double low = 0, high = 1;
-  for (int i = 0; i < 60; ++i) {
-    const double u = (low + high) / 2;
-    const Eigen::Vector2d p = geometry::profile_at(edge.profile, u).p;
-    (wrapped(std::atan2(p.y(), p.x()) / full_turn) < turn ? low : high) = u;
-  }
-  return wrapped(high);
-}
-
 CutPoint in_work(const geometry::Edge& edge, double u, const SectionPoint& point) {
   return {.u = u,
           .P = geometry::to_outer(edge.frame, point.ridge.P),
@@ -91,7 +76,7 @@ public:
       : job_(job),
         progress_(progress),
         edge_(geometry::edge_of(job.workpiece, hole_of(job), job.edge, job.side)),
-        start_u_(parameter_at_angle(edge_, job.start_angle)) {}
+        start_u_(geometry::parameter_at(edge_.profile, job.start_angle)) {}
 
   Result run();
 
@@ -145,7 +130,8 @@ std::vector<CutPoint> Solver::overlap(const std::vector<CutPoint>& loop, bool re
                                       double width) const {
   if (!(job_.overlap > 0)) return {};
   const double sign = reversed ? -1 : 1;
-  const double end_u = parameter_at_angle(edge_, job_.start_angle + sign * job_.overlap);
+  const double end_u =
+      geometry::parameter_at(edge_.profile, job_.start_angle + sign * job_.overlap);
   const auto travelled = [&](double u) { return wrapped(sign * (u - start_u_)); };
   const double end = job_.overlap < full_turn ? travelled(end_u) : 1;
   std::vector<CutPoint> again;

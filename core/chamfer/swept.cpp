@@ -21,6 +21,7 @@ using Eigen::Vector3d;
 
 constexpr int iterations_limit = 40;
 constexpr double ridge_doubt = 0.3;         // of the ridge's second derivative taken for a border's
+constexpr double bent_doubt = 1;            // of B2, beyond a joint
 constexpr double left_out = 2e-11;          // of D, in a squared length: 1e-11 mm in a length
 constexpr double joint_step = 1e-12;        // u beyond a joint, to be on its other side
 constexpr double joint_reach = 0.03;        // of the loop: a joint further off is not looked beyond
@@ -55,7 +56,7 @@ struct Solver {
   const Section* section;
   double u;
   Vector3d e1, e2;
-  std::vector<double> joints;
+  const std::vector<double>& joints;
 
   void look(Touch& touch, double v) const {
     const double at = wrapped(v);
@@ -162,11 +163,13 @@ struct Solver {
   }
 
   // The second-order form corrects the squared length by h^2 / m. Of that it may miss the share by
-  // which B2 is wrong, and what the border bends on its way to the foot.
-  static bool is_settled(const Touch& touch, const Sight& seen, double D) {
+  // which B2 is wrong, and what the border bends on its way to the foot. A foot beyond a joint is
+  // of a border that does not run on like this one.
+  bool is_settled(const Touch& touch, const Sight& seen, double D) const {
     if (touch.before) return seen.h == 0;
+    const double doubt = joint_between(touch.v, seen.h / seen.m) ? bent_doubt : touch.doubt;
     const double bend = std::abs(seen.h / seen.m) * touch.B2.norm() / touch.B1.norm();
-    return seen.h * seen.h * (touch.doubt + bend) <= left_out * D * std::min(1.0, D) * seen.m;
+    return seen.h * seen.h * (doubt + bend) <= left_out * D * std::min(1.0, D) * seen.m;
   }
 
   // Newton in the plane VP from C: the ball of radius D there touches both borders.
@@ -289,7 +292,7 @@ SectionPoint swept_at(const Section& section, double u) {
                       .u = u,
                       .e1 = point.ridge.e1,
                       .e2 = point.ridge.e2,
-                      .joints = geometry::joints(section.ridge.profile)};
+                      .joints = section.breaks};
   const double v = beside_joint(solver, u);
   const BorderRates rates = border_rates(section, point, v);
   std::array<Touch, 2> touches = touches_at(point, rates, v);

@@ -84,6 +84,22 @@ std::vector<double> joints(const Profile& profile) {
   return result;
 }
 
+// The polar angle grows with u, for the profile is convex about the origin: halving of a turn.
+double parameter_at(const Profile& profile, double phi) {
+  const double turn = phi / (2 * pi) - std::floor(phi / (2 * pi));
+  if (profile.straight_along == 0 && profile.straight_across == 0) return turn < 1 ? turn : 0;
+  const Eigen::Vector2d ray(std::cos(phi), std::sin(phi));
+  const double quarter = std::floor(4 * turn) / 4;  // quarters of phi are quarters of u
+  double low = quarter;
+  double high = quarter + 0.25;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    const Eigen::Vector2d p = profile_at(profile, middle).p;
+    (p.x() * ray.y() - p.y() * ray.x() > 0 ? low : high) = middle;
+  }
+  return low < 1 ? low : 0;
+}
+
 PlaneDistance signed_distance(const Profile& profile, const Eigen::Vector2d& p) {
   const Eigen::Vector2d half(profile.straight_across / 2, profile.straight_along / 2);
   const Eigen::Vector2d core = p.cwiseMax(-half).cwiseMin(half);

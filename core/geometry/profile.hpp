@@ -40,6 +40,9 @@ ProfilePoint profile_at(const Profile& profile, double u);
 /// Parameters u in [0, 1) where straight parts and arcs join, ascending; empty for a circle.
 std::vector<double> joints(const Profile& profile);
 
+/// The parameter in [0, 1) of the point at polar angle phi about A2 [rad].
+double parameter_at(const Profile& profile, double phi);
+
 /// Exact signed distance s(x', y') of the profile.
 PlaneDistance signed_distance(const Profile& profile, const Eigen::Vector2d& p);
 

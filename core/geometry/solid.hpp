@@ -59,7 +59,7 @@ public:
   /// Point of a seam at a parameter; nullopt where the faces do not meet.
   std::optional<Eigen::Vector3d> seam_at(const SeamPart& part, double parameter) const;
 
-  /// The point of the material's boundary that is nearest to p, a point of the air; to seam_sag.
+  /// The point of the material's boundary that is nearest to p, to seam_sag.
   struct Nearest {
     Eigen::Vector3d point;
     double distance = 0;

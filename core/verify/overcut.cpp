@@ -134,7 +134,8 @@ double Search::seam_depth(const Eigen::Vector3d& c) const {
 
 double Search::depth(const Eigen::Vector3d& c) const {
   const double air = geometry::distance(solid_.material(), c);
-  if (air < 0) return D_ - air;
+  // In the tip of an acute edge, which the chamfer removes, the centre is as good as in the air.
+  if (air < 0 && !is_in_band(solid_.nearest(c).point)) return D_ - air;
   double deepest = std::max(-margin_, seam_depth(c));
   for (const Face& face : solid_.faces()) {
     solid_.feet(face, c, D_ - deepest, [&](const Eigen::Vector3d& q) {

@@ -94,6 +94,62 @@ TEST(Loop, KeepsTheToleranceWithFewPointsOnRandomEdges) {
 }
 
 // Points asked for: equal steps of u from the start, in either direction, error of each certified.
+// Edges on which the ball goes round bends of the borders: at joints, and where G2 crosses one.
+TEST(Loop, GoesRoundTheBendsOfSlots) {
+  struct Bend {
+    double R1, m, f, beta_deg;
+    geometry::Profile profile;
+    double W, D;
+  };
+  const Bend bends[] = {
+      {30.313, 1, -19.976, 57.799, {.R2 = 7.695, .straight_along = 7.528}, 0.261, 1.34},
+      {33.302, 1, 2.05, 5.4, {.R2 = 26.318, .straight_along = 4.939}, 0.699, 8.501},
+      {36.266, 1, 10.937, 23.5, {.R2 = 13.522, .straight_along = 5.252}, 0.121, 4.729},
+      {27.412,
+       1,
+       2.844,
+       16.048,
+       {.R2 = 8.889, .straight_along = 3.849, .straight_across = 12.603},
+       0.3,
+       2.6}};
+  for (const Bend& bend : bends) {
+    SCOPED_TRACE(bend.R1);
+    const geometry::Edge slot = edge(bend.R1, bend.m, bend.f, radians(bend.beta_deg), bend.profile);
+    const Chamfer chamfer{.W = bend.W, .D = bend.D};
+    Sampling sampling;
+    sampling.tolerance = 0.001;
+    const Loop loop = chamfer::loop(slot, chamfer, sampling);
+    EXPECT_LE(loop.chord_error, sampling.tolerance);
+    EXPECT_LE(measured_error(slot, chamfer, loop, 1), sampling.tolerance);
+    // The curve of centres is one piece at every bend: near it, no step is larger than the way.
+    const Section ready = section(slot, chamfer);
+    ASSERT_GT(ready.breaks.size(), geometry::joints(bend.profile).size());
+    for (const double at : ready.breaks) {
+      Vector3d before = centre(slot, chamfer, at - 1e-3);
+      for (int i = -99; i <= 100; ++i) {
+        const Vector3d here = centre(slot, chamfer, at + i * 1e-5);
+        EXPECT_LT((here - before).norm(), 2e-5 * geometry::perimeter(bend.profile) * 2);
+        before = here;
+      }
+    }
+  }
+}
+
+// A table of section angles bends the borders at its entries.
+TEST(Loop, GoesRoundTheBendsOfAnAngleTable) {
+  const geometry::Edge round = edge(20, 1, 3, 0.3, {.R2 = 5});
+  const Chamfer chamfer{
+      .W = 0.4,
+      .D = 2,
+      .section_angle = AngleTable{.entries = {{0.2, 0.6}, {1.9, 0.9}, {4.1, 0.7}}}};
+  Sampling sampling;
+  sampling.tolerance = 0.001;
+  const Loop loop = chamfer::loop(round, chamfer, sampling);
+  EXPECT_LE(loop.chord_error, sampling.tolerance);
+  EXPECT_LE(measured_error(round, chamfer, loop, 1), sampling.tolerance);
+  EXPECT_EQ(section(round, chamfer).corners.size(), 3u);
+}
+
 TEST(Loop, GivesEqualStepsWhenPointsAreAskedFor) {
   const geometry::Edge e = edge(20, 1, 3, 0, {.R2 = 8});
   const Chamfer chamfer{.W = 0.5, .D = 2};
