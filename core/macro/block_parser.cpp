@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::int32_t last_sequence_number = 99999999;
 constexpr std::int32_t last_goto_number = 99999;
+constexpr int most_conditions = 10;  // IF..THEN IF..THEN; no control documents more than one
 
 std::string address_name(char letter) {
   if (letter == 'r') return ",R";
@@ -26,6 +27,8 @@ void BlockParser::parse(Block block) {
   } catch (const AlarmRaised& raised) {
     program_.blocks.resize(before);  // the IF of an IF..THEN whose statement is wrong
     block.kind = BlockKind::Faulty;
+    block.code = block.goto_code = -1;  // an expression may have been left half done
+    block.words = 0;
     block.target = static_cast<std::int32_t>(program_.alarms.size());
     program_.alarms.push_back(raised.alarm);
     program_.blocks.push_back(block);
@@ -124,6 +127,9 @@ void BlockParser::assignment(Block& block) {
 }
 
 void BlockParser::conditional(Block& block) {
+  if (++conditions_ > most_conditions) {
+    raise(AlarmNumber::MacroFormat, "too many IF in one block", line_.column());
+  }
   block.code = expression_.condition();
   if (line_.take_keyword("GOTO")) {
     jump(block, BlockKind::IfGoto);

@@ -47,6 +47,7 @@ private:
   Program& program_;
   ExpressionParser expression_;
   const Profile& profile_;
+  int conditions_ = 0;  ///< IF of this block
 };
 
 }  // namespace ridgeline::macro

@@ -26,12 +26,36 @@ bool has_m(const Program& program, const Block& block, int code) {
   });
 }
 
+// Computed jumps and returns with M99 P reach labels that cannot be told.
+bool jumps_anywhere(const Program& program) {
+  return std::any_of(program.blocks.begin(), program.blocks.end(), [&](const Block& block) {
+    if (has_m(program, block, 99)) {
+      const auto* first = program.words.data() + block.first_word;
+      return std::any_of(first, first + block.words,
+                         [](const Word& word) { return word.letter == 'P'; });
+    }
+    return (block.kind == BlockKind::Goto || block.kind == BlockKind::IfGoto) &&
+           block.goto_code >= 0;
+  });
+}
+
+/// What the programs of a text have in common.
+struct Context {
+  explicit Context(const std::vector<Program>& programs)
+      : types(programs),
+        is_entered_by_label(std::any_of(programs.begin(), programs.end(), jumps_anywhere)) {
+    for (const Program& program : programs) numbers.insert(program.number);
+  }
+  ValueTypes types;
+  bool is_entered_by_label = false;
+  std::set<int> numbers;
+};
+
 /// Looks at one program of a text.
 class ProgramCheck {
 public:
-  ProgramCheck(const Program& program, const std::vector<Program>& all, const ValueTypes& types,
-               std::vector<Finding>& findings)
-      : program_(program), all_(all), types_(types), findings_(findings) {}
+  ProgramCheck(const Program& program, const Context& context, std::vector<Finding>& findings)
+      : program_(program), context_(context), findings_(findings) {}
 
   void run(const std::function<bool(int)>& has_program) {
     for (std::size_t i = 0; i < program_.blocks.size(); ++i) {
@@ -80,7 +104,7 @@ private:
                                block.kind == BlockKind::While;
     if (!has_condition) return;
     std::vector<ValueTypes::Comparison> compared;
-    types_.of(program_, block.code, &compared);
+    context_.types.of(program_, block.code, &compared);
     for (const ValueTypes::Comparison& each : compared) {
       const bool tests_vacant = each.left == ValueType::Vacant || each.right == ValueType::Vacant;
       if (tests_vacant || (each.left != ValueType::Real && each.right != ValueType::Real)) continue;
@@ -104,7 +128,7 @@ private:
         code[1].op == Op::Literal &&
         code[1].number != static_cast<double>(static_cast<long>(code[1].number));
     if (!is_fraction && !tests_in_loop(block)) return;
-    if (is_fraction || types_.of(program_, block.code) == ValueType::Real) {
+    if (is_fraction || context_.types.of(program_, block.code) == ValueType::Real) {
       report("adds_up", Severity::Warning, block,
              numbered("#", block.variable) +
                  " grows by a fraction in each pass: its rounding adds up and may lose or double "
@@ -131,10 +155,7 @@ private:
       if (word.letter != 'P' || !is_literal(word)) continue;
       const int number = static_cast<int>(word.number);
       const auto has = [&](int wanted) {
-        const bool is_in_text =
-            std::any_of(all_.begin(), all_.end(),
-                        [wanted](const Program& program) { return program.number == wanted; });
-        return is_in_text || (has_program && has_program(wanted));
+        return context_.numbers.contains(wanted) || (has_program && has_program(wanted));
       };
       if (has(number) || (number > 9999 && has(number % 10000))) continue;
       report("missing_program", Severity::Warning, block,
@@ -173,7 +194,8 @@ private:
                    "look-ahead before it (G53, M00)",
                at->column);
       }
-      if (at->op == Op::Local && is_main && !types_.is_assigned(n) && warned.insert(n).second) {
+      if (at->op == Op::Local && is_main && !context_.types.is_assigned(n) &&
+          warned.insert(n).second) {
         report("never_assigned", Severity::Warning, block,
                numbered("#", n) + " is vacant: nothing assigns it", at->column);
       }
@@ -181,15 +203,14 @@ private:
   }
 
   void labels() {
+    std::set<int> targets;
+    for (const Block& block : program_.blocks) {
+      const bool is_jump = block.kind == BlockKind::Goto || block.kind == BlockKind::IfGoto;
+      if (is_jump && block.goto_code < 0) targets.insert(block.variable);
+    }
     for (std::size_t i = 1; i < program_.labels.size(); ++i) {
-      if (program_.labels[i].number != program_.labels[i - 1].number) continue;
       const int number = program_.labels[i].number;
-      const bool is_target =
-          std::any_of(program_.blocks.begin(), program_.blocks.end(), [number](const Block& block) {
-            const bool is_jump = block.kind == BlockKind::Goto || block.kind == BlockKind::IfGoto;
-            return is_jump && block.goto_code < 0 && block.variable == number;
-          });
-      if (!is_target) continue;
+      if (number != program_.labels[i - 1].number || !targets.contains(number)) continue;
       report("double_label", Severity::Warning,
              program_.blocks[static_cast<std::size_t>(program_.labels[i].block)],
              numbered("N", number) +
@@ -208,7 +229,7 @@ private:
       }
     };
     visit(0);
-    if (is_entered_by_label()) {
+    if (context_.is_entered_by_label) {
       for (const Label& label : program_.labels) visit(static_cast<std::size_t>(label.block));
     }
     while (!open.empty()) {
@@ -222,22 +243,6 @@ private:
         report("unreachable", Severity::Warning, program_.blocks[i], "no way leads to this block");
       }
     }
-  }
-
-  // Computed jumps and returns with M99 P reach labels that cannot be told.
-  bool is_entered_by_label() const {
-    const auto jumps_anywhere = [](const Program& program) {
-      return std::any_of(program.blocks.begin(), program.blocks.end(), [&](const Block& block) {
-        if (has_m(program, block, 99)) {
-          const auto* first = program.words.data() + block.first_word;
-          return std::any_of(first, first + block.words,
-                             [](const Word& word) { return word.letter == 'P'; });
-        }
-        return (block.kind == BlockKind::Goto || block.kind == BlockKind::IfGoto) &&
-               block.goto_code >= 0;
-      });
-    };
-    return std::any_of(all_.begin(), all_.end(), jumps_anywhere);
   }
 
   template <class Visit>
@@ -266,8 +271,7 @@ private:
   }
 
   const Program& program_;
-  const std::vector<Program>& all_;
-  const ValueTypes& types_;
+  const Context& context_;
   std::vector<Finding>& findings_;
 };
 
@@ -276,10 +280,10 @@ private:
 std::vector<Finding> check(std::string text, const Profile& profile,
                            const std::function<bool(int number)>& has_program) {
   const std::vector<Program> programs = compile(std::move(text), profile);
-  const ValueTypes types(programs);
+  const Context context(programs);
   std::vector<Finding> findings;
   for (const Program& program : programs) {
-    ProgramCheck(program, programs, types, findings).run(has_program);
+    ProgramCheck(program, context, findings).run(has_program);
   }
   std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
     return std::pair(a.line, a.column) < std::pair(b.line, b.column);

@@ -114,7 +114,7 @@ private:
 
   void add_block(const Block& block) {
     if (tape_mark()) return;
-    if (program_head(block)) return;
+    if (program_name(block) || program_head(block)) return;
     if (after_end_) return;
     BlockParser(reader_, programs_.back(), profile_).parse(block);
   }
@@ -128,6 +128,18 @@ private:
     const bool has_head =
         (reader_.peek() == 'O' || reader_.peek() == ':') && is_digit(reader_.peek(1));
     return !has_head;
+  }
+
+  // <NAME> or O<NAME>, a program without a number.
+  bool program_name(const Block& block) {
+    const std::size_t at = reader_.peek() == 'O' ? 1 : 0;
+    if (reader_.peek(at) != '<') return false;
+    if (!programs_.back().blocks.empty() || programs_.back().number != 0) {
+      close_program();
+      open_program(0, static_cast<int>(block.line));
+    }
+    after_end_ = false;
+    return true;
   }
 
   // O1234 or :1234 begins a program; words may follow on the line.

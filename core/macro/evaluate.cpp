@@ -19,19 +19,27 @@ double to_mantissa(double value, int bits) {
   return std::ldexp(std::round(std::ldexp(fraction, bits)), exponent - bits);
 }
 
-// Sine and cosine of degrees, exact at multiples of 90.
+// Sine of 0 to 90 degrees, exact where it is rational.
+double first_quadrant(double angle) {
+  if (angle == 30) return 0.5;
+  if (angle == 90) return 1;
+  return angle <= 45 ? std::sin(radians(angle)) : std::cos(radians(90 - angle));
+}
 double sine(double angle) {
-  const double turn = std::fmod(angle, 360.0);
-  if (turn == 0 || std::abs(turn) == 180) return 0;
-  if (turn == 90 || turn == -270) return 1;
-  if (turn == -90 || turn == 270) return -1;
-  return std::sin(radians(turn));
+  double turn = std::fmod(angle, 360.0);
+  double sign = 1;
+  if (turn < 0) {
+    turn = -turn;
+    sign = -1;
+  }
+  if (turn >= 180) {
+    turn -= 180;
+    sign = -sign;
+  }
+  return sign * first_quadrant(turn > 90 ? 180 - turn : turn);
 }
 double cosine(double angle) {
-  const double turn = std::abs(std::fmod(angle, 360.0));
-  if (turn == 90 || turn == 270) return 0;
-  if (turn == 180) return -1;
-  return std::cos(radians(turn));
+  return sine(90 - std::abs(std::fmod(angle, 360.0)));
 }
 
 double tangent(double angle, int column) {
@@ -80,8 +88,9 @@ double arc_function(Op op, double value, const Profile& profile, int column) {
     raise(AlarmNumber::ArgumentRange, "ASIN or ACOS beyond 1", column);
   }
   const double x = std::min(1.0, std::max(-1.0, value));
-  if (op == Op::Acos) return degrees(std::acos(x));
-  const double angle = degrees(std::asin(x));
+  // 30 and 60 degrees come out exact, as on a control.
+  if (op == Op::Acos) return x == 0.5 ? 60 : x == -0.5 ? 120 : degrees(std::acos(x));
+  const double angle = std::abs(x) == 0.5 ? 60 * x : degrees(std::asin(x));
   return angle < 0 && !profile.half_turn_angles ? angle + 360 : angle;
 }
 

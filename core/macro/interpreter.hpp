@@ -17,8 +17,8 @@ namespace ridgeline::macro {
 struct Limits {
   std::uint64_t steps = 100'000'000;  ///< blocks executed
   double seconds = 120;               ///< of computing
-  std::size_t moves = 10'000'000;     ///< moves, and events, recorded
-  std::size_t trace = 1'000'000;      ///< trace steps kept
+  std::size_t moves = 3'000'000;      ///< moves, and events, recorded
+  std::size_t trace = 200'000;        ///< trace steps kept
 };
 
 struct Options {

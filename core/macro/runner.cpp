@@ -12,6 +12,8 @@ namespace ridgeline::macro {
 namespace {
 
 constexpr std::uint64_t check_interval = 8192;  // blocks between looks at the clock
+constexpr std::size_t most_text = 50'000'000;   // bytes of messages, prints and trace
+constexpr std::size_t most_trace_text = 200;    // characters of a block in the trace
 
 std::string place(const Program& program, const Block& block) {
   return numbered("O", program.number) + " line " + std::to_string(block.line);
@@ -173,6 +175,12 @@ void Runner::assign(const Frame& frame, const Block& block) {
   }
 }
 
+// Room for text of the result, so that a loop cannot fill the memory.
+void Runner::take_room(std::size_t bytes) {
+  text_bytes_ += bytes;
+  if (text_bytes_ > most_text) raise(AlarmNumber::MemoryLimit, "text of messages and DPRNT");
+}
+
 // #3000 stops with an alarm, #3006 stops with a message: both take the comment as their text.
 void Runner::assign_system(const Program& program, const Block& block, int number, Value value) {
   if (number != 3000 && number != 3006) {
@@ -181,6 +189,7 @@ void Runner::assign_system(const Program& program, const Block& block, int numbe
   }
   const std::string comment = readable(comment_text(program, block));
   if (number == 3006) {
+    take_room(comment.size() + sizeof(comment));
     result_.messages.push_back(comment);
     return;
   }
@@ -228,7 +237,7 @@ void Runner::print(const Program& program, const Block& block) {
     }
     line += printed(variables_.read(number, word.column).number, word.flags / 10, word.flags % 10);
   }
-  if (result_.prints.size() >= options_.limits.moves) raise(AlarmNumber::MemoryLimit, "DPRNT");
+  take_room(line.size() + sizeof(line));
   result_.prints.push_back(readable(line));
 }
 
@@ -256,7 +265,7 @@ void Runner::trace(const Program& program, const Block& block) {
   step.program = program.number;
   step.line = static_cast<int>(block.line);
   step.level = variables_.level();
-  step.text = readable(line_text(program, block));
+  step.text = readable(line_text(program, block).substr(0, most_trace_text));
   step.moves = recorder_.moves();
   if (block.kind == BlockKind::Assign) {
     step.variable = assigned_;

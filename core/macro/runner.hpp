@@ -48,6 +48,7 @@ private:
   void step(Frame& frame, const Block& block);
   void check_limits();
   void assign(const Frame& frame, const Block& block);
+  void take_room(std::size_t bytes);
   void assign_system(const Program& program, const Block& block, int number, Value value);
   bool holds(const Frame& frame, const Block& block) const;
   void jump(Frame& frame, std::int32_t from, const Block& block);
@@ -87,6 +88,7 @@ private:
   std::vector<ModalCall> modal_calls_;
   bool ended_ = false;
   std::uint64_t next_check_ = 0;
+  std::size_t text_bytes_ = 0;
   std::chrono::steady_clock::time_point start_;
   const Block* block_ = nullptr;   ///< being executed
   int assigned_ = 0;               ///< variable of the last assignment, for the trace
