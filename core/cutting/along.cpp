@@ -58,6 +58,12 @@ void in_parts(const Path& path, const Work& work) {
   if (failure) std::rethrow_exception(failure);
 }
 
+// Is the station one of those whose stability is tested?
+bool is_tested(const AlongOptions& options, std::size_t i) {
+  return options.stability != StabilityTest::None &&
+         i % static_cast<std::size_t>(std::max(options.stability_every, 1)) == 0;
+}
+
 }  // namespace
 
 std::vector<StationError> along(const Course& course, const std::vector<Station>& stations,
@@ -65,7 +71,10 @@ std::vector<StationError> along(const Course& course, const std::vector<Station>
                                 const Progress& progress) {
   std::vector<StationError> out(stations.size());
   in_parts({course, stations, compliance, S, options, progress},
-           [&](Follower& follower, std::size_t i) { out[i] = follower.at(stations[i]); });
+           [&](Follower& follower, std::size_t i) {
+             out[i] = follower.at(stations[i]);
+             if (is_tested(options, i)) follower.test(stations[i], out[i]);
+           });
   return out;
 }
 
@@ -77,22 +86,7 @@ std::vector<StationError> corrected(const Course& course, const std::vector<Stat
   in_parts({course, stations, compliance, S, options, progress},
            [&](Follower& follower, std::size_t i) {
              out[i] = follower.corrected_at(stations[i], limits);
-           });
-  return out;
-}
-
-std::vector<std::optional<Stability>> stabilities(const Course& course,
-                                                  const std::vector<Station>& stations,
-                                                  const Compliance& compliance, double S,
-                                                  const AlongOptions& options, int every,
-                                                  const Progress& progress) {
-  const auto step = static_cast<std::size_t>(std::max(every, 1));
-  std::vector<std::optional<Stability>> out(stations.size());
-  AlongOptions shorter = options;
-  shorter.part = every;  // one test a part
-  in_parts({course, stations, compliance, S, shorter, progress},
-           [&](Follower& follower, std::size_t i) {
-             if (i % step == 0) out[i] = follower.stability_at(stations[i]);
+             if (is_tested(options, i)) follower.test(stations[i], out[i]);
            });
   return out;
 }

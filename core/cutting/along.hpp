@@ -1,9 +1,11 @@
 #pragma once
 
+#include <complex>
 #include <optional>
 #include <vector>
 
 #include "core/base/progress.hpp"
+#include "core/cutting/floquet.hpp"
 #include "core/cutting/predict.hpp"
 #include "core/cutting/station.hpp"
 
@@ -16,6 +18,9 @@ struct Uncertainty {
   double stiffness = 0;  ///< of the tool
 };
 
+/// Whether the state that a station settles to is tested for chatter, and how.
+enum class StabilityTest { None, Floquet, TimeDomain };
+
 /// How a path is predicted.
 struct AlongOptions {
   Method method = Method::Iterate;
@@ -23,6 +28,8 @@ struct AlongOptions {
   TimeOptions time;
   bool fall_back = true;                   ///< to the time domain where a station does not converge
   std::optional<Uncertainty> uncertainty;  ///< absent: no spread
+  StabilityTest stability = StabilityTest::None;
+  int stability_every = 1;  ///< every so many stations, counted from the first of the path
   int threads = 1;  ///< the result does not depend on it: parts of `part` stations begin cold
   int part = 512;
 };
@@ -46,6 +53,8 @@ struct StationError {
   int loops = 0;
   bool converged = true;
   bool fell_back = false;
+  std::optional<Stability> stability;              ///< where it was tested or fell back
+  std::optional<std::complex<double>> multiplier;  ///< where it was tested by Floquet
   bool settles = true;        ///< false: even the time domain finds no end to the vibration
   bool low_pass_off = false;  ///< kappa / tc would cut the tool's own resonance here
   double shift = 0;           ///< corrected path: the tool goes this far along -n [mm]
@@ -67,8 +76,8 @@ public:
   /// where it does not shrink or the shift would leave the limits.
   StationError corrected_at(const Station& station, const CorrectOptions& limits);
 
-  /// What the cut of a station settles to, by the time domain.
-  Stability stability_at(const Station& station);
+  /// Tests what the station predicted last settles to; `out` is what it gave, moved as it was.
+  void test(const Station& station, StationError& out);
 
 private:
   StationError shifted(const Station& station, double shift);
@@ -93,12 +102,5 @@ std::vector<StationError> corrected(const Course& course, const std::vector<Stat
                                     const Compliance& compliance, double S,
                                     const AlongOptions& options, const CorrectOptions& limits,
                                     const Progress& progress = {});
-
-/// Every `every`th station, the others nullopt. Throws Error{Unsupported} for a measured response.
-std::vector<std::optional<Stability>> stabilities(const Course& course,
-                                                  const std::vector<Station>& stations,
-                                                  const Compliance& compliance, double S,
-                                                  const AlongOptions& options, int every,
-                                                  const Progress& progress = {});
 
 }  // namespace ridgeline::cutting

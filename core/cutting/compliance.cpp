@@ -1,6 +1,8 @@
 #include "core/cutting/compliance.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <numbers>
 #include <string>
 
 #include "core/cutting/require.hpp"
@@ -32,16 +34,29 @@ std::complex<double> interpolated(const MeasuredResponse& measured, double frequ
   return values[above - 1] * (1 - s) + values[above] * s;
 }
 
-// Local maxima of |G| that stand out: at least a tenth of the greatest.
+// Does |G| fall below half the power of line `top` before it rises above it, going by `step`?
+bool stands_out(const MeasuredResponse& measured, std::size_t top, int step) {
+  const double here = std::abs(measured.value[top]);
+  const auto count = static_cast<std::ptrdiff_t>(measured.value.size());
+  for (auto i = static_cast<std::ptrdiff_t>(top) + step; i >= 0 && i < count; i += step) {
+    const double there = std::abs(measured.value[static_cast<std::size_t>(i)]);
+    if (there > here) return false;
+    if (there < here / std::numbers::sqrt2) return true;
+  }
+  return false;
+}
+
+// Local maxima of |G| of at least a tenth of the greatest that stand out on both sides: noise on
+// the flank of a peak is none.
 std::vector<double> peaks(const MeasuredResponse& measured) {
   const auto& [lines, values] = measured;
   double greatest = 0;
   for (const auto& value : values) greatest = std::max(greatest, std::abs(value));
   std::vector<double> found;
   for (std::size_t i = 1; i + 1 < values.size(); ++i) {
-    const double here = std::abs(values[i]);
-    const bool is_top = here > std::abs(values[i - 1]) && here >= std::abs(values[i + 1]);
-    if (is_top && here >= greatest / 10) found.push_back(lines[i]);
+    const bool is_large = std::abs(values[i]) >= greatest / 10;
+    if (is_large && stands_out(measured, i, -1) && stands_out(measured, i, 1))
+      found.push_back(lines[i]);
   }
   return found;
 }

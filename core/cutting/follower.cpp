@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/base/text.hpp"
 #include "core/cutting/along.hpp"
@@ -92,12 +93,14 @@ void Follower::fall_back(const Cut& cut, Prediction& prediction, StationError& o
   try {
     TimeDomain run = time_domain(cut, compliance_, S_, options_.time);
     out.e = run.e;
+    out.stability = stability_of(run);
     prediction.F = std::move(run.F);
     run.D.resize(samples);
     prediction.D = std::move(run.D);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::NotConverged) throw;
     out.settles = false;
+    out.stability = Stability::Unstable;
   }
 }
 
@@ -154,9 +157,36 @@ StationError Follower::corrected_at(const Station& station, const CorrectOptions
   return now;
 }
 
-Stability Follower::stability_at(const Station& station) {
+namespace {
+
+// Near -1 every second tooth repeats: a flip. A cutter with unlike teeth has a multiplier by the
+// revolution, which tells no flip.
+Stability stability_of(std::complex<double> multiplier, bool by_tooth) {
+  constexpr double same_angle = 0.1;
+  if (std::abs(multiplier) <= 1) return Stability::Stable;
+  const bool alternates = std::numbers::pi - std::abs(std::arg(multiplier)) < same_angle;
+  return by_tooth && alternates ? Stability::Flip : Stability::Unstable;
+}
+
+}  // namespace
+
+void Follower::test(const Station& nominal, StationError& out) {
+  if (out.stability) return;  // the time domain has told it
+  if (!out.e) {
+    out.stability = Stability::Stable;
+    return;
+  }
+  Station station = nominal;
+  station.centre -= out.shift * station.n;
+  const Cut cut = cut_at(course_, station);
   compliance_.axes = machine_axes(course_, station.direction);
-  return stability(cut_at(course_, station), compliance_, S_);
+  if (options_.stability == StabilityTest::TimeDomain) {
+    out.stability = stability(cut, compliance_, S_);
+    return;
+  }
+  const bool by_tooth = is_periodic(course_.cutter) && cut.samples % teeth(course_.cutter) == 0;
+  out.multiplier = floquet_multiplier(cut, compliance_, S_, start_, Engaging::Moving);
+  out.stability = stability_of(*out.multiplier, by_tooth);
 }
 
 }  // namespace ridgeline::cutting
