@@ -202,11 +202,13 @@ void read_definitions(Object& object, const Definitions& definitions, ChamferJob
   ResolvedWorkpiece workpiece = resolve_workpiece(object.required("workpiece"), definitions);
   result.job.workpiece = std::move(workpiece.workpiece);
   result.workpiece_revision = workpiece.revision;
+  result.material = std::move(workpiece.material);
   result.job.hole =
       take_hole(resolve_hole(object.required("hole"), result.job.workpiece), result.job.workpiece);
   ResolvedTool tool = resolve_tool(object.required("tool"), definitions);
   result.job.tool = std::move(tool.tool);
   result.tool_revision = tool.revision;
+  result.tool_dynamics = std::move(tool.dynamics);
   if (result.job.tool.number == 0)
     result.warnings.emplace_back("the tool has no number: the program does not call one");
 }

@@ -16,6 +16,8 @@ struct ChamferJob {
   nc::Program program;                    ///< all but the motion and the tool axis
   std::optional<int> workpiece_revision;  ///< absent: inline
   std::optional<int> tool_revision;
+  std::optional<std::string> material;     ///< of the workpiece: names a cutting-coefficient set
+  nlohmann::json tool_dynamics = nullptr;  ///< of the tool; null: not said
   std::vector<std::string> warnings;
 };
 

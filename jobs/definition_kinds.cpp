@@ -2,6 +2,7 @@
 
 #include "jobs/definitions.hpp"
 #include "jobs/limits.hpp"
+#include "jobs/material.hpp"
 #include "jobs/units_product.hpp"
 
 namespace ridgeline::jobs {
@@ -18,17 +19,9 @@ void check_tool(const Value& value) {
   if (!object.has("number")) object.required("name");
 }
 
-/// A cutting-coefficient set: force per chip area (c) and per length of edge (e), tangential,
-/// radial and axial.
 void check_material(const Value& value) {
-  Object object(value);
-  object.required("kind");
-  object.required("name").name();
-  for (const std::string_view key : {"Ktc", "Krc", "Kac"})
-    object.number(key, between(0, 1e6, "N/mm2"));
-  for (const std::string_view key : {"Kte", "Kre", "Kae"})
-    object.number(key, between(0, 1e6, "N/mm"));
-  object.finish();
+  read_material(value);
+  Object(value).required("name");
 }
 
 /// A part and what was found in it: what turning programs are planned from.

@@ -8,6 +8,7 @@
 #include "core/base/angle.hpp"
 #include "core/base/tolerance.hpp"
 #include "jobs/limits.hpp"
+#include "jobs/tool_dynamics.hpp"
 
 namespace ridgeline::jobs {
 namespace {
@@ -194,6 +195,10 @@ Definition find(const Value& value, ErrorCode code, std::string_view kind, const
                      exists});
 }
 
+nlohmann::json dynamics_of(const nlohmann::json& tool) {
+  return tool.value("dynamics", nlohmann::json(nullptr));
+}
+
 std::optional<std::string> material_of(const nlohmann::json& workpiece) {
   const auto found = workpiece.find("material");
   if (found == workpiece.end()) return std::nullopt;
@@ -250,6 +255,8 @@ Tool read_tool(const Value& value) {
   tool.helix_angle = radians(object.number("helix_angle", inside(-90, 90, "degrees"), 0));
   tool.spindle = object.choice("spindle", spindle_senses, tool.spindle);
   tool.length_offset = object.integer("length_offset", 1, 999, 0);
+  if (const std::optional<Value> dynamics = object.optional("dynamics"))
+    check_dynamics(*dynamics, tool);
   object.finish();
   return tool;
 }
@@ -266,13 +273,14 @@ ResolvedWorkpiece resolve_workpiece(const Value& value, const Definitions& defin
 }
 
 ResolvedTool resolve_tool(const Value& value, const Definitions& definitions) {
-  if (value.json().is_object()) return {read_tool(value), std::nullopt};
+  if (value.json().is_object()) return {read_tool(value), std::nullopt, dynamics_of(value.json())};
   if (!value.json().is_string() && !value.json().is_number())
     value.refuse("a number or a name of the library, or a tool object");
   const std::string name =
       value.json().is_string() ? value.string() : std::to_string(value.integer(1, max_tool_number));
   const Definition found = find(value, ErrorCode::UnknownTool, "tool", name, definitions);
-  return {read_tool(Value(found.document, value.pointer())), found.revision};
+  return {read_tool(Value(found.document, value.pointer())), found.revision,
+          dynamics_of(found.document)};
 }
 
 Hole resolve_hole(const Value& value, const Workpiece& workpiece) {

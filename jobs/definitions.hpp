@@ -37,6 +37,7 @@ struct ResolvedWorkpiece {
 struct ResolvedTool {
   tool::Tool tool;
   std::optional<int> revision;
+  nlohmann::json dynamics = nullptr;  ///< how the tool gives way; null: not said
 };
 
 /// A name of the library or an inline object. Throws Error{UnknownWorkpiece}.

@@ -127,7 +127,7 @@ void give(Sink& sink, const Placed& placed) {
 /// Builds the values of an array as a document.
 class DomSink {
 public:
-  void number(double value) { put(value); }
+  void number(double value) { put(std::isfinite(value) ? Json(value) : Json()); }
   void name(const Column& column, std::size_t index) { put(column.names[index]); }
   void begin_array() { open(Json::array()); }
   void begin_rows() { open(Json::array()); }

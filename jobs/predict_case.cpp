@@ -32,21 +32,13 @@ constexpr int most_samples = 65536;
 constexpr double most_places = 1 << 22;  // samples times elements: what a chip search may look at
 
 // "pitch_deg": the angle from each tooth to the next, which sum to 360.
-std::vector<double> read_pitch(Object& tool) {
-  const int z = tool.required("z").integer(1, most_teeth);
-  const std::optional<Value> given = tool.optional("pitch_deg");
-  if (!given) return cutting::equal_pitch(z);
-  std::vector<double> pitch = given->numbers(inside(0, 360.0000001, "degrees"));
+std::vector<double> read_pitch(const Value& given, std::size_t z) {
+  std::vector<double> pitch = given.numbers(inside(0, 360.0000001, "degrees"));
+  if (pitch.size() != z) given.refuse("as many angles as there are teeth, " + std::to_string(z));
   double turn = 0;
-  for (double& angle : pitch) {
-    turn += angle;
-    angle = radians(angle);
-  }
-  if (pitch.size() != static_cast<std::size_t>(z))
-    given->refuse("as many angles as there are teeth, " + std::to_string(z));
-  if (std::abs(turn - 360) > 1e-6) given->refuse("angles that sum to 360 degrees");
-  const double closes = 360 / turn;
-  for (double& angle : pitch) angle *= closes;
+  for (const double angle : pitch) turn += angle;
+  if (std::abs(turn - 360) > 1e-6) given.refuse("angles that sum to 360 degrees");
+  for (double& angle : pitch) angle = radians(angle * (360 / turn));
   return pitch;
 }
 
@@ -55,19 +47,11 @@ cutting::Cutter read_cutter(const Value& value) {
   cutting::Cutter cutter;
   cutter.kind = tool.required("kind").choice(kinds);
   cutter.r = tool.number("r", between(1e-3, 1e3, "mm"));
-  cutter.pitch = read_pitch(tool);
+  cutter.pitch = cutting::equal_pitch(tool.required("z").integer(1, most_teeth));
   cutter.helix = radians(tool.number("helix_deg", between(-80, 80, "degrees"), 0));
   cutter.elements = tool.integer("nq", 1, most_elements, 256);
   cutter.q_end = radians(tool.number("q_end_deg", between(1, 179, "degrees"), 90));
-  if (const std::optional<Value> runout = tool.optional("runout_mm")) {
-    cutter.runout = runout->numbers(between(-cutter.r / 4, cutter.r / 4, "mm"));
-    if (cutter.runout.size() != cutter.pitch.size())
-      runout->refuse("one number for each tooth, " + std::to_string(cutter.pitch.size()));
-  }
-  cutter.offset = tool.number("offset_mm", between(0, cutter.r / 4, "mm"), 0);
-  cutter.offset_angle = radians(tool.number("offset_deg", between(-360, 360, "degrees"), 0));
-  cutter.lag = tool.choice("lag", lags, LagLaw::Tangent);
-  cutter.chip_width = tool.choice("tw_mode", widths, ChipWidth::Chip);
+  read_teeth(tool, cutter);
   tool.finish();
   return cutter;
 }
@@ -87,37 +71,12 @@ tool::Coefficients read_coefficients(const Value& value) {
   return k;
 }
 
-cutting::Modes read_modes(const Value& value) {
-  cutting::Modes modes;
-  for (const Value& row : value.array(0, 64)) {
-    const std::vector<Value> mode = row.array(3, 3);
-    modes.push_back({mode[0].number(between(0.1, 1e6, "Hz")),
-                     mode[1].number(inside(0, 1, "of critical damping")),
-                     mode[2].number(between(1e-3, 1e9, "N/mm"))});
-  }
-  return modes;
-}
-
-// [[f, re, im], ...]: Hz and mm/N.
-cutting::MeasuredResponse read_measured(const Value& value) {
-  cutting::MeasuredResponse measured;
-  for (const Value& row : value.array(2, 1'000'000)) {
-    const std::vector<Value> line = row.array(3, 3);
-    const double least = measured.frequency.empty() ? 0 : measured.frequency.back();
-    const Range ascending{least, 1e6, "Hz, ascending", !measured.frequency.empty(), false};
-    constexpr Range compliance = between(-1e3, 1e3, "mm/N");
-    measured.frequency.push_back(line[0].number(ascending));
-    measured.value.emplace_back(line[1].number(compliance), line[2].number(compliance));
-  }
-  return measured;
-}
-
 cutting::Direction read_direction(Object& object, const std::string& axis) {
   const std::optional<Value> modes = object.optional("modes_" + axis);
   const std::optional<Value> measured = object.optional("frf_" + axis);
   if (modes && measured) object.exclude("modes_" + axis, "frf_" + axis);
-  if (modes) return read_modes(*modes);
-  if (measured) return read_measured(*measured);
+  if (modes) return read_mode_rows(*modes);
+  if (measured) return read_measured_response(*measured);
   object.refuse("modes_" + axis, "modes, or frf_" + axis + " in its place; [] is rigid");
 }
 
@@ -140,6 +99,45 @@ cutting::Cut read_cut(Object& object) {
 }
 
 }  // namespace
+
+cutting::Modes read_mode_rows(const Value& value) {
+  cutting::Modes modes;
+  for (const Value& row : value.array(0, 64)) {
+    const std::vector<Value> mode = row.array(3, 3);
+    modes.push_back({mode[0].number(between(0.1, 1e6, "Hz")),
+                     mode[1].number(inside(0, 1, "of critical damping")),
+                     mode[2].number(between(1e-3, 1e9, "N/mm"))});
+  }
+  return modes;
+}
+
+// [[f, re, im], ...]: Hz and mm/N.
+cutting::MeasuredResponse read_measured_response(const Value& value) {
+  cutting::MeasuredResponse measured;
+  for (const Value& row : value.array(2, 1'000'000)) {
+    const std::vector<Value> line = row.array(3, 3);
+    const double least = measured.frequency.empty() ? 0 : measured.frequency.back();
+    const Range ascending{least, 1e6, "Hz, ascending", !measured.frequency.empty(), false};
+    constexpr Range compliance = between(-1e3, 1e3, "mm/N");
+    measured.frequency.push_back(line[0].number(ascending));
+    measured.value.emplace_back(line[1].number(compliance), line[2].number(compliance));
+  }
+  return measured;
+}
+
+void read_teeth(Object& object, cutting::Cutter& cutter) {
+  if (const std::optional<Value> pitch = object.optional("pitch_deg"))
+    cutter.pitch = read_pitch(*pitch, cutter.pitch.size());
+  if (const std::optional<Value> runout = object.optional("runout_mm")) {
+    cutter.runout = runout->numbers(between(-cutter.r / 4, cutter.r / 4, "mm"));
+    if (cutter.runout.size() != cutter.pitch.size())
+      runout->refuse("one number for each tooth, " + std::to_string(cutter.pitch.size()));
+  }
+  cutter.offset = object.number("offset_mm", between(0, cutter.r / 4, "mm"), 0);
+  cutter.offset_angle = radians(object.number("offset_deg", between(-360, 360, "degrees"), 0));
+  cutter.lag = object.choice("lag", lags, LagLaw::Tangent);
+  cutter.chip_width = object.choice("tw_mode", widths, ChipWidth::Chip);
+}
 
 void read_case(const Value& value, cutting::Engagement& engagement) {
   Object object(value);

@@ -21,6 +21,8 @@ struct Selected {
 
 /// chamfer, verify, ...: commands that send one job and print its answer.
 void add_job_commands(CLI::App& app, Selected& selected);
+/// predict: machining error of an engagement or along a path, and the corrected path.
+void add_predict_command(CLI::App& app, Selected& selected);
 /// library put, get, list, ...
 void add_library_commands(CLI::App& app, Selected& selected);
 

@@ -93,12 +93,6 @@ void add_job_commands(CLI::App& app, Selected& selected) {
        "Formats: json (path, report), nc (program for the control that the job names), cl (APT CL\n"
        "data), csv (one line a point), svg (drawing).\n"
        "Example: ridgeline chamfer job.json --format nc -o O9101.nc"});
-  add_job_command(app, selected,
-                  {"predict",
-                   "Predict the machining error that the cutting force makes, along a path",
-                   {"json", "nc", "csv", "svg"},
-                   "Formats: json (error, force and deflection), nc (program of the corrected "
-                   "path), csv, svg."});
   add_verify(app, selected);
 }
 

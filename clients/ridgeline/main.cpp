@@ -66,6 +66,7 @@ int run(int argc, char** argv) {
       "interrupted.");
   add_options(app, options);
   add_job_commands(app, selected);
+  add_predict_command(app, selected);
   add_library_commands(app, selected);
   add_macro_commands(app, selected);
   add_batch_command(app, selected);

@@ -1,0 +1,186 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/chamfer/job.hpp"
+#include "core/cutting/wedge.hpp"
+#include "jobs/chamfer_job.hpp"
+#include "jobs/check.hpp"
+#include "jobs/predict_motion.hpp"
+#include "jobs/predict_path.hpp"
+
+namespace ridgeline::jobs {
+namespace {
+
+using cutting::ChamferPoint;
+
+// The path of a chamfer job made ready: its points as stations of the last pass.
+struct ChamferPath {
+  chamfer::Result result;
+  geometry::Edge edge;
+  CutRange cut;  // the last pass in the motion
+  std::vector<ChamferPoint> points;
+  std::vector<cutting::Station> stations;
+};
+
+// Directions round a closed loop.
+std::vector<Eigen::Vector3d> loop_directions(const std::vector<Eigen::Vector3d>& centres) {
+  std::vector<Eigen::Vector3d> out;
+  const std::size_t count = centres.size();
+  for (std::size_t i = 0; i < count; ++i)
+    out.push_back((centres[(i + 1) % count] - centres[(i + count - 1) % count]).normalized());
+  return out;
+}
+
+// Where the polyline of an earlier pass is nearest to a point: the groove that it left there.
+Eigen::Vector3d nearest_on(const std::vector<Eigen::Vector3d>& line, const Eigen::Vector3d& point) {
+  Shifts places{line, line, true};
+  return shift_at(places, point);
+}
+
+// Ball centres of an earlier pass.
+std::vector<Eigen::Vector3d> centres_of(const path::Motion& motion, const CutRange& cut,
+                                        const Eigen::Vector3d& to_centre) {
+  std::vector<Eigen::Vector3d> centres;
+  for (std::size_t i = cut.from; i < cut.to; ++i) centres.push_back(motion.moves[i].to + to_centre);
+  return centres;
+}
+
+// Positions of the program are those of its control point.
+Eigen::Vector3d to_centre(const ChamferJob& job, const Eigen::Vector3d& tool_axis) {
+  if (job.job.control_point == chamfer::ControlPoint::Centre) return Eigen::Vector3d::Zero();
+  return tool::cutting_radius(job.job.tool) * tool_axis;
+}
+
+ChamferPath path_of(const ChamferJob& job, double S, const cutting::Cutter& cutter,
+                    const Progress& progress) {
+  ChamferPath path;
+  path.result = chamfer::solve(job.job, progress);
+  const chamfer::Result& result = path.result;
+  path.edge = subject_of(job, result.tool_axis).edge;
+  const std::vector<CutRange> passes = cut_ranges(result.motion);
+  if (passes.empty()) throw Error(ErrorCode::Internal, "a chamfer without a cut");
+  path.cut = passes.back();
+  std::vector<Eigen::Vector3d> earlier;
+  if (passes.size() > 1)
+    earlier =
+        centres_of(result.motion, passes[passes.size() - 2], to_centre(job, result.tool_axis));
+  const double teeth_per_second = S * cutting::teeth(cutter);
+  const std::vector<Eigen::Vector3d> directions = loop_directions(result.centres);
+  for (std::size_t i = 0; i < result.centres.size(); ++i) {
+    const path::Move& move = result.motion.moves[std::min(path.cut.from + i, path.cut.to - 1)];
+    ChamferPoint point{result.targets[i],
+                       result.centres[i],
+                       result.G1[i],
+                       result.G2[i],
+                       directions[i],
+                       move.feed / teeth_per_second,
+                       {}};
+    if (!(point.feed >= 1e-6 && point.feed <= cutter.r / 2))
+      refuse({.field = "/along/feed",
+              .value = text(point.feed) + " mm a tooth",
+              .limit = "1e-6 mm to half the radius a tooth at this spindle_speed"});
+    if (!earlier.empty()) point.earlier_centre = nearest_on(earlier, point.centre);
+    path.stations.push_back(cutting::chamfer_station(path.edge, point, cutter.r));
+    path.points.push_back(std::move(point));
+  }
+  return path;
+}
+
+// Widths that the errors at the two borders leave, the tool moved as it was.
+std::vector<double> widths(const ChamferPath& path,
+                           const std::vector<cutting::StationError>& errors) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const std::vector<std::optional<double>>& border = errors[i].border;
+    const bool cuts = border.size() == 2 && border[0] && border[1];
+    out.push_back(cuts ? cutting::chamfer_width(path.edge, path.points[i], *border[0], *border[1])
+                       : std::numeric_limits<double>::quiet_NaN());
+  }
+  return out;
+}
+
+/// The program of the corrected path. Its own clearances are measured: a shift brings neck and
+/// holder nearer too.
+nc::Program corrected_program(const ChamferJob& job, const ChamferPath& path,
+                              const PredictedPath& predicted) {
+  Shifts shifts{predicted.position, {}, true};
+  double greatest = 0;
+  for (std::size_t i = 0; i < path.stations.size(); ++i) {
+    const double shift = predicted.result.after[i].shift;
+    shifts.shift.emplace_back(-shift * path.stations[i].n);
+    greatest = std::max(greatest, std::abs(shift));
+  }
+  nc::Program program = job.program;
+  program.tool_axis = path.result.tool_axis;
+  program.motion = shifted(path.result.motion, path.cut, shifts, path.result.tool_axis);
+  program.comments.push_back("CORRECTED FOR TOOL DEFLECTION, GREATEST SHIFT " +
+                             text(std::round(greatest * 1e4) / 1e4));
+  return program;
+}
+
+void refuse_collisions(const ChamferJob& job, const nc::Program& program) {
+  const verify::Subject subject = subject_of(job, program.tool_axis);
+  const verify::Report report = verify::measure(subject, nc::rounded(program));
+  for (const Failure& failure : failures(job, subject, report)) {
+    const ErrorCode code = failure.error.code();
+    const bool is_cut = is_width(failure) || code == ErrorCode::ToolTooLarge;  // meant to differ
+    if (!is_cut) throw failure.error;
+  }
+}
+
+AlongSource source_of(const ChamferJob& job) {
+  return {.tool = job.job.tool,
+          .dynamics = job.tool_dynamics,
+          .material = job.material,
+          .material_at = "/along/workpiece/material",
+          .rpm = job.program.spindle_speed};
+}
+
+}  // namespace
+
+Answer predict_chamfer(Object& job, const Value& along, const Request& request) {
+  ChamferJob chamfer_job = read_chamfer_job(along, request.definitions);
+  chamfer::validate(chamfer_job.job);
+  const AlongSource source = source_of(chamfer_job);
+  AlongJob read = read_along(job, source, request.definitions);
+  job.finish();
+  if (chamfer_job.job.arcs) {
+    chamfer_job.job.arcs = false;
+    read.warnings.emplace_back("the path is predicted, and corrected, as straight blocks");
+  }
+  if (chamfer_job.job.spring_pass)
+    refuse({.code = ErrorCode::Unsupported,
+            .field = "/along/spring_pass",
+            .value = "true",
+            .limit = "false: a spring pass cuts what deflection left, not what the path says"});
+
+  const ChamferPath path =
+      path_of(chamfer_job, read.S(), read.course.cutter, part_of(request.progress, 0, 0.1));
+  read.course.tool_axis = path.result.tool_axis;
+  PredictedPath predicted;
+  predicted.kind = "chamfer";
+  predicted.wanted_width = chamfer_job.job.width;
+  predicted.parameter = path.result.parameter;
+  predicted.stations = path.stations;
+  const Eigen::Vector3d offset = to_centre(chamfer_job, path.result.tool_axis);
+  for (const Eigen::Vector3d& centre : path.result.centres)
+    predicted.position.push_back(centre - offset);
+  predicted.result = run_along(read, path.stations, part_of(request.progress, 0.1, 1));
+  predicted.width = widths(path, predicted.result.before);
+
+  std::optional<nc::Program> program;
+  if (read.correct) {
+    predicted.width_after = widths(path, predicted.result.after);
+    program = corrected_program(chamfer_job, path, predicted);
+    refuse_collisions(chamfer_job, *program);
+  }
+  Answer answer = path_answer(read, predicted);
+  if (request.format == "csv") answer.text = path_csv(predicted);
+  if (request.format == "svg") answer.text = path_drawing(read, predicted);
+  if (request.format == "nc") answer.text = nc::write(program.value());
+  return answer;
+}
+
+}  // namespace ridgeline::jobs

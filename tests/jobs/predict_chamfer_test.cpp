@@ -1,0 +1,184 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "jobs/answer.hpp"
+
+namespace ridgeline::jobs {
+namespace {
+
+using Json = nlohmann::json;
+
+Json run(const Json& job) {
+  return assemble(answer(job.dump(), "json", NoDefinitions()));
+}
+
+// A cut that is stable: aluminium, a short tool whose modes are given.
+Json chamfer_job() {
+  return Json::parse(R"({
+    "job": "predict",
+    "along": {
+      "job": "chamfer",
+      "workpiece": {"shape": "thick_walled_cylinder", "inner_radius": 10, "outer_radius": 18,
+                    "length": 80, "holes": [{"name": "port", "shape": "circle", "radius": 4,
+                                             "eccentric_distance": 3}]},
+      "hole": "port", "edge": "inner",
+      "tool": {"number": 12, "shape": "lollipop", "radius": 2.9, "neck_radius": 1.75,
+               "neck_length": 40, "shank_radius": 3, "stickout": 60, "flutes": 3,
+               "helix_angle": 30},
+      "cutting_amount": 0.2, "points": 12, "feed": 1200, "spindle_speed": 8000},
+    "material": {"name": "aluminium", "Ktc": 796.1, "Krc": 168.8, "Kte": 27.7, "Kre": 30.8},
+    "dynamics": {"modes": [[2200, 0.03, 4000]]},
+    "N": 512, "nq": 128})");
+}
+
+TEST(PredictChamfer, AnswersArraysAlongTheEdge) {
+  const Json result = run(chamfer_job());
+  ASSERT_EQ(result["status"], "ok") << result.dump(1);
+  EXPECT_EQ(result["along"], "chamfer");
+  for (const char* key : {"position", "force", "deflection", "error", "stability", "width", "way",
+                          "centre", "normal", "parameter", "loops"})
+    EXPECT_EQ(result[key].size(), 12U) << key;
+  for (const Json& stability : result["stability"]) EXPECT_EQ(stability, "stable");
+  EXPECT_EQ(result["dynamics"]["estimate"], false);
+  EXPECT_EQ(result["material"]["Ktc"], 796.1);
+  // The ball centre stands above the tip, which the program drives, along Z.
+  for (std::size_t i = 0; i < 12; ++i)
+    EXPECT_NEAR(result["centre"][i][2].get<double>() - result["position"][i][2].get<double>(), 2.9,
+                1e-9);
+}
+
+// A rigid tool cuts the chamfer that was asked for.
+TEST(PredictChamfer, RigidToolKeepsTheWidth) {
+  Json job = chamfer_job();
+  job["dynamics"] = {{"modes", Json::array()}};
+  job["nq"] = 512;
+  const Json result = run(job);
+  ASSERT_EQ(result["status"], "ok") << result.dump(1);
+  for (const Json& width : result["width"])
+    EXPECT_NEAR(width.get<double>(), std::sqrt(2.0) * 0.2, 0.002);
+}
+
+TEST(PredictChamfer, CorrectionLeavesLittleAndMovesTheProgram) {
+  Json job = chamfer_job();
+  const Json before = run(job);
+  job["correct"] = true;
+  const Json result = run(job);
+  ASSERT_EQ(result["status"], "ok") << result.dump(1);
+  const Json& corrected = result["corrected"];
+  int moved = 0;
+  for (std::size_t i = 0; i < 12; ++i) {
+    const double original = before["error"][i].get<double>();
+    EXPECT_EQ(result["error"][i], before["error"][i]);
+    EXPECT_LE(std::abs(corrected["error"][i].get<double>()),
+              std::max(0.0005, 0.05 * std::abs(original)));
+    double shift = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double by = corrected["shift"][i][c].get<double>();
+      EXPECT_NEAR(
+          corrected["position"][i][c].get<double>() - result["position"][i][c].get<double>(), by,
+          1e-12);
+      shift += by * by;
+    }
+    moved += shift > 0 ? 1 : 0;
+  }
+  EXPECT_GT(moved, 6);
+}
+
+// The corrected program, predicted again, cuts what was wanted.
+TEST(PredictChamfer, WritesTheCorrectedProgram) {
+  Json job = chamfer_job();
+  job["correct"] = true;
+  const Answer corrected = answer(job.dump(), "nc", NoDefinitions());
+  ASSERT_FALSE(is_error(corrected)) << corrected.document.dump(1);
+  EXPECT_NE(corrected.text.find("CORRECTED FOR TOOL DEFLECTION"), std::string::npos);
+  const Answer nominal = answer(job["along"].dump(), "nc", NoDefinitions());
+  ASSERT_FALSE(is_error(nominal)) << nominal.document.dump(1);
+  EXPECT_NE(corrected.text, nominal.text);
+}
+
+TEST(PredictChamfer, DrawsAndLists) {
+  const Json job = chamfer_job();
+  const Answer list = answer(job.dump(), "csv", NoDefinitions());
+  EXPECT_EQ(std::count(list.text.begin(), list.text.end(), '\n'), 13);
+  EXPECT_EQ(list.text.find("nan"), std::string::npos);
+  const Answer drawing = answer(job.dump(), "svg", NoDefinitions());
+  EXPECT_NE(drawing.text.find("Width of the chamfer"), std::string::npos);
+  EXPECT_EQ(drawing.text.find("nan"), std::string::npos);
+}
+
+TEST(PredictChamfer, SpreadFollowsTheUncertainty) {
+  Json job = chamfer_job();
+  EXPECT_FALSE(run(job).contains("spread"));
+  job["uncertainty"] = {{"Kc", 0.1}, {"Ke", 0.2}, {"stiffness", 0.1}};
+  const Json once = run(job)["spread"];
+  job["uncertainty"] = {{"Kc", 0.2}, {"Ke", 0.4}, {"stiffness", 0.2}};
+  const Json twice = run(job)["spread"];
+  ASSERT_EQ(once.size(), 12U);
+  for (std::size_t i = 0; i < 12; ++i) {
+    EXPECT_GT(once[i].get<double>(), 0);
+    EXPECT_NEAR(twice[i].get<double>(), 2 * once[i].get<double>(), 1e-12);
+  }
+}
+
+// A tool of which only the shape is known is estimated, and says so.
+TEST(PredictChamfer, BeamFromGeometryIsAnEstimate) {
+  Json job = chamfer_job();
+  job.erase("dynamics");
+  job["stability"] = "none";
+  job["method"] = "rigid";
+  const Json result = run(job);
+  ASSERT_EQ(result["status"], "ok") << result.dump(1);
+  EXPECT_EQ(result["dynamics"]["estimate"], true);
+  EXPECT_FALSE(result["dynamics"]["modes_x"].empty());
+  EXPECT_NE(result["warnings"].dump().find("estimate"), std::string::npos);
+}
+
+struct Refused {
+  const char* name;
+  const char* patch;  // JSON merge patch on the job
+  const char* code;
+  const char* field;
+};
+
+void PrintTo(const Refused& refused, std::ostream* out) {
+  *out << refused.name;
+}
+
+class PredictChamferRefusal : public testing::TestWithParam<Refused> {};
+
+TEST_P(PredictChamferRefusal, NamesTheField) {
+  Json job = chamfer_job();
+  job.merge_patch(Json::parse(GetParam().patch));
+  const Json result = run(job);
+  ASSERT_EQ(result["status"], "error") << result.dump().substr(0, 500);
+  EXPECT_EQ(result["error"]["code"], GetParam().code) << result.dump();
+  EXPECT_EQ(result["error"].value("field", ""), GetParam().field) << result.dump();
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, PredictChamferRefusal,
+    testing::Values(
+        Refused{"NoMaterial", R"({"material": null})", "bad_input", "/material"},
+        Refused{"UnknownMaterial", R"({"material": "unobtainium"})", "unknown_material",
+                "/material"},
+        Refused{"UnknownPath", R"({"along": {"job": "dance"}})", "bad_input", "/along/job"},
+        Refused{"PathWithoutWidth", R"({"along": {"cutting_amount": null}})", "bad_input",
+                "/along/width"},
+        Refused{"FeedBeyondTheTool", R"({"along": {"feed": 500000}})", "bad_input", "/along/feed"},
+        Refused{"SpringPass", R"({"along": {"spring_pass": true}})", "unsupported",
+                "/along/spring_pass"},
+        Refused{"UnknownKey", R"({"steel": 1})", "bad_input", "/steel"},
+        Refused{"NegativeCoefficient", R"({"material": {"Ktc": -1}})", "bad_input",
+                "/material/Ktc"},
+        Refused{"OneDirectionOnly",
+                R"({"dynamics": {"modes": null, "modes_x": [[1000, 0.03, 1000]]}})", "bad_input",
+                "/dynamics/modes_y"},
+        Refused{"SoftToolChatters",
+                R"({"dynamics": {"modes": [[600, 0.03, 150]]}, "correct": true})", "not_converged",
+                "/correct"},
+        Refused{"NoSpeed", R"({"along": {"spindle_speed": 0}})", "bad_input", "/speed_rpm"}),
+    [](const auto& refused) { return refused.param.name; });
+
+}  // namespace
+}  // namespace ridgeline::jobs
