@@ -22,15 +22,17 @@ constexpr std::array<std::string_view, 4> predict_formats{"json", "csv", "svg", 
 constexpr std::array<std::string_view, 1> json_only{"json"};
 constexpr std::array<std::string_view, 4> units_formats{"json", "text", "svg", "html"};
 constexpr std::array<std::string_view, 5> chamfer_formats{"json", "nc", "cl", "csv", "svg"};
+constexpr std::array<std::string_view, 2> expand_formats{"json", "nc"};
 constexpr std::array<std::string_view, 4> cycle_formats{"json", "nc", "csv", "svg"};
 constexpr std::array<std::string_view, 6> macro_formats{"json", "nc",    "csv",
                                                         "svg",  "trace", "text"};
 
 /// Every kind of job. A new one is one line here and one function in kinds.hpp.
 constexpr std::array kinds{
-    Kind{"chamfer", chamfer, chamfer_formats},   Kind{"cycle", cycle, cycle_formats},
-    Kind{"macro", macro_program, macro_formats}, Kind{"predict", predict, predict_formats},
-    Kind{"units", units_program, units_formats}, Kind{"verify", verify, json_only},
+    Kind{"chamfer", chamfer, chamfer_formats}, Kind{"cycle", cycle, cycle_formats},
+    Kind{"expand", expand, expand_formats},    Kind{"macro", macro_program, macro_formats},
+    Kind{"predict", predict, predict_formats}, Kind{"units", units_program, units_formats},
+    Kind{"verify", verify, json_only},
 };
 
 const Kind& kind_of(const nlohmann::json& document) {

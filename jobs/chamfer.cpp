@@ -4,6 +4,7 @@
 
 #include "core/nc/cl.hpp"
 #include "jobs/chamfer_job.hpp"
+#include "jobs/chamfer_program.hpp"
 #include "jobs/check.hpp"
 #include "jobs/drawing.hpp"
 #include "jobs/kinds.hpp"
@@ -168,6 +169,16 @@ Answer chamfer(const Request& request) {
   else
     answer.text = text_of(job, solved, request.format);
   return answer;
+}
+
+InlineProgram inline_program(const nlohmann::json& document, const Definitions& definitions,
+                             const Progress& progress) {
+  ChamferJob job = read_chamfer_job(Value(document), definitions);
+  job.program.kind = nc::ProgramKind::Inline;
+  chamfer::validate(job.job);
+  const Solved solved = solve_to_width(job, progress);
+  refuse_failures(job, solved);
+  return {nc::write(solved.program), report(solved)};
 }
 
 }  // namespace ridgeline::jobs

@@ -23,6 +23,7 @@ struct Request {
 
 Answer chamfer(const Request& request);
 Answer cycle(const Request& request);
+Answer expand(const Request& request);
 Answer macro_program(const Request& request);
 Answer predict(const Request& request);
 Answer units_program(const Request& request);

@@ -21,6 +21,7 @@ struct JobCommand {
 struct Arguments {
   std::string job;
   std::string program;
+  std::string binding;
   std::string format = "json";
 };
 
@@ -78,6 +79,42 @@ void add_verify(CLI::App& app, Selected& selected) {
   });
 }
 
+Outcome run_expand(const Session& session, const Arguments& arguments) {
+  nlohmann::json job = {{"job", "expand"}, {"program", read_file(arguments.program)}};
+  if (!arguments.binding.empty()) job["binding"] = read_document(arguments.binding);
+  const std::string text = job.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return outcome_of(session.ask(text, arguments.format), arguments.format);
+}
+
+void add_expand(CLI::App& app, Selected& selected) {
+  CLI::App* command =
+      app.add_subcommand("expand", "Replace macro calls in an NC program by computed motion");
+  const auto arguments = std::make_shared<Arguments>();
+  arguments->format = "nc";
+  command->add_option("PROGRAM", arguments->program, "NC program, or - for standard input")
+      ->required();
+  command
+      ->add_option("--binding", arguments->binding,
+                   "File (JSON) that says what macro numbers and letters mean")
+      ->type_name("FILE");
+  command->add_option("--format", arguments->format, "What to print")
+      ->check(CLI::IsMember({"nc", "json"}))
+      ->capture_default_str();
+  add_output(*command, selected);
+  command->footer(
+      "Calls as G65 P9100 W1 H1 T12 Q0.35 E1 become the motion of a chamfer; all other bytes "
+      "stay.\n"
+      "Without a binding: W workpiece, H hole, T tool (numbers of the library), Q cutting amount "
+      "or\n"
+      "V width, E edge (1 inner, 2 outer), S side (1 entry, 2 exit), or in place of W and H: I and "
+      "J\n"
+      "inner and outer radius, K length, R hole radius, U eccentricity, A arrangement and B\n"
+      "penetration angle, X Y Z position; C tolerance, D tool radius, F feed, M spindle speed.");
+  command->callback([&selected, arguments] {
+    selected.run = [arguments](const Session& session) { return run_expand(session, *arguments); };
+  });
+}
+
 }  // namespace
 
 nlohmann::json read_document(const std::string& path) {
@@ -94,6 +131,7 @@ void add_job_commands(CLI::App& app, Selected& selected) {
        "data), csv (one line a point), svg (drawing).\n"
        "Example: ridgeline chamfer job.json --format nc -o O9101.nc"});
   add_verify(app, selected);
+  add_expand(app, selected);
 }
 
 }  // namespace ridgeline::command

@@ -92,6 +92,7 @@ private:
                  const Vector3d& tool_axis);
   std::vector<CutPoint> overlap(const std::vector<CutPoint>& loop, bool reversed,
                                 double width) const;
+  std::vector<Route> open_routes() const;
   MotionPlan plan_along(const Route& route, const geometry::Solid& solid);
   void fill(const Route& route, MotionPlan plan);
 
@@ -207,9 +208,27 @@ void Solver::fill(const Route& route, MotionPlan plan) {
   }
 }
 
+// The ways that the axis allows and the ball fits into. Throws what keeps it out when there is
+// none.
+std::vector<Route> Solver::open_routes() const {
+  std::vector<Route> open;
+  std::optional<Error> does_not_fit;
+  for (const Route& route : routes(job_, edge_)) {
+    try {
+      require_entry(job_, edge_, route);
+      open.push_back(route);
+    } catch (const Error& error) {
+      if (!does_not_fit) does_not_fit = error;
+    }
+  }
+  if (open.empty() && does_not_fit) throw *does_not_fit;
+  return open;
+}
+
 // Of the ways that the axis allows, the first with room for the whole tool; if none has, the one
 // with the most: what is in the way is measured and named afterwards.
 Result Solver::run() {
+  const std::vector<Route> open = open_routes();
   widths_ = job_.pass_widths.empty() ? std::vector<double>{job_.width} : job_.pass_widths;
   for (const double width : widths_) loops_.push_back(sampled(width));
   if (job_.spring_pass) {
@@ -220,15 +239,8 @@ Result Solver::run() {
   progress_.at(0.8, "motion");
 
   const geometry::Solid solid(job_.workpiece);
-  std::optional<Error> does_not_fit;
   double best = -std::numeric_limits<double>::infinity();
-  for (const Route& route : routes(job_, edge_)) {
-    try {
-      require_entry(job_, edge_, route);
-    } catch (const Error& error) {
-      if (!does_not_fit) does_not_fit = error;
-      continue;
-    }
+  for (const Route& route : open) {
     MotionPlan found = plan_along(route, solid);
     if (!(found.room > best)) continue;
     best = found.room;
@@ -240,7 +252,6 @@ Result Solver::run() {
     fill(route, std::move(found));
     if (best > 0) break;
   }
-  if (std::isinf(best) && does_not_fit) throw *does_not_fit;
   return std::move(result_);
 }
 
