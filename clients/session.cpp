@@ -208,7 +208,9 @@ void Client::Session::watch() {
 std::vector<wire::InstanceStatus> Client::Session::status(std::chrono::milliseconds wait) {
   const auto end = Clock::now() + wait;
   Lock lock(mutex_);
-  found_.wait_until(lock, end, [this] { return !instances_.empty(); });
+  found_.wait_until(lock, end, [this] {
+    return options_.instance.empty() ? !instances_.empty() : instances_.contains(options_.instance);
+  });
   lock.unlock();
   std::this_thread::sleep_until(std::min<Clock::time_point>(end, Clock::now() + settle));
   lock.lock();

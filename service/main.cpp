@@ -38,6 +38,7 @@ void declare(CLI::App& app, Options& options) {
                      service::default_library_file().string() + ")");
   app.add_option("--instance", options.server.instance,
                  "Name of this instance on the network (default: host name and process)")
+      ->envname("RIDGELINE_INSTANCE")
       ->check([](const std::string& name) {
         return dds::is_name(name) ? std::string()
                                   : "must be 1 to 64 of letters, digits, '_', '-', '.'";

@@ -20,6 +20,9 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--domain", options.domain, "DDS domain of the service")
       ->check(CLI::Range(0, 100))
       ->capture_default_str();
+  app.add_option("--instance", options.instance,
+                 "Ask this instance alone (default: the one with the least to do)")
+      ->envname("RIDGELINE_INSTANCE");
   app.add_option("--timeout", options.timeout, "Seconds to wait for the answer")
       ->check(CLI::Range(0.001, 1e6));
   app.add_flag("--quiet,-q", options.quiet, "No progress and no messages on standard error");

@@ -91,6 +91,7 @@ client::Client& Session::client() const {
   if (!client_) {
     client::Options options;
     options.domain = static_cast<unsigned>(options_.domain);
+    options.instance = options_.instance;
     client_ = std::make_unique<client::Client>(options);
   }
   return *client_;
@@ -147,8 +148,9 @@ std::vector<wire::InstanceStatus> Session::status() const {
   ErrorDetails details;
   details.value = "domain " + std::to_string(options_.domain);
   details.limit = "a running ridgelined within " + text(wait, "s");
-  throw Error(ErrorCode::NoService, "no instance of the service answers in " + details.value,
-              details);
+  const std::string whom =
+      options_.instance.empty() ? "no instance of the service" : "no instance " + options_.instance;
+  throw Error(ErrorCode::NoService, whom + " answers in " + details.value, details);
 }
 
 }  // namespace ridgeline::command

@@ -25,6 +25,7 @@ struct Options {
   bool local = false;
   std::string library;  ///< file, with --local; empty: the usual one
   int domain = 0;
+  std::string instance;           ///< the only one to ask; empty: any
   std::optional<double> timeout;  ///< [s]
   bool quiet = false;
 };

@@ -177,8 +177,13 @@ TEST_F(Loopback, StatusShowsEveryInstance) {
   EXPECT_EQ(status[1].pid, south->pid());
   EXPECT_GT(status[1].memory, 1'000'000u);
   EXPECT_EQ(status[0].answers.front().first, "ok");
+  client::Options one = options();
+  one.instance = "south";
+  ASSERT_EQ(Client(one).status(10s).size(), 1u);
+  EXPECT_EQ(Client(one).status(10s)[0].pid, south->pid());
   south->signal(SIGKILL);
   EXPECT_TRUE(eventually([&] { return client.status(1s).size() == 1; }, 3s));
+  EXPECT_TRUE(Client(one).status(500ms).empty());
 }
 
 TEST_F(Loopback, ASecondInstanceOfTheSameNameGoesAway) {
