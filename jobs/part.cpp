@@ -1,8 +1,10 @@
 #include "jobs/part.hpp"
 
+#include <algorithm>
 #include <list>
 #include <mutex>
 
+#include "jobs/part_mouths.hpp"
 #include "jobs/units_product.hpp"
 #include "jobs/units_shape.hpp"
 #include "part/isolate.hpp"
@@ -123,6 +125,15 @@ units::Region stock_of_step(const Value& step, const Progress& progress) {
     return {{"shape", region_document(part::read_stock(step.string()))}};
   });
   return read_region(Value(document.at("shape"), step.pointer()));
+}
+
+Json mouths_of_step(const Value& step, const Progress& progress) {
+  return read_isolated(step, "mouths", progress, [&] {
+    const std::vector<part::Solid> solids = part::read_step(step.string());
+    const auto largest = std::ranges::max_element(
+        solids, {}, [](const part::Solid& solid) { return solid.model().volume; });
+    return mouths_document(largest->model());
+  });
 }
 
 Part part_of_document(const Value& product, const Definitions& definitions) {

@@ -24,6 +24,9 @@ Part part_of_step(const Value& step, const std::optional<Value>& axis, const Pro
 /// "stock_step": the half section of a stock.
 units::Region stock_of_step(const Value& step, const Progress& progress);
 
+/// The mouths of holes of the largest solid of a file: mouths_document() of part_mouths.hpp.
+nlohmann::json mouths_of_step(const Value& step, const Progress& progress);
+
 /// "product": {...} of a job: part values; or the name of a part in the library.
 Part part_of_document(const Value& product, const Definitions& definitions);
 

@@ -1,8 +1,12 @@
 #include "core/units/plan.hpp"
+#include "jobs/definitions.hpp"
 #include "jobs/kinds.hpp"
 #include "jobs/part.hpp"
+#include "jobs/part_holes.hpp"
+#include "jobs/part_mouths.hpp"
 #include "jobs/units_drawing.hpp"
 #include "jobs/units_edit.hpp"
+#include "jobs/units_nc.hpp"
 #include "jobs/units_program.hpp"
 #include "jobs/units_shape.hpp"
 
@@ -11,11 +15,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-enum class Operation { Plan, Edit, Show };
-constexpr Choices<Operation, 3> operations{{
+enum class Operation { Plan, Edit, Show, Nc, Holes };
+constexpr Choices<Operation, 5> operations{{
     {"plan", Operation::Plan},
     {"edit", Operation::Edit},
     {"show", Operation::Show},
+    {"nc", Operation::Nc},
+    {"holes", Operation::Holes},
 }};
 
 Part read_part(Object& job, const Request& request) {
@@ -80,17 +86,57 @@ UnitsProgram edited(Object& job) {
   return whole;
 }
 
-UnitsProgram run(Object& job, const Request& request) {
-  switch (job.choice("operation", operations, Operation::Plan)) {
-    case Operation::Plan: return planned(job, request);
-    case Operation::Edit: return edited(job);
-    case Operation::Show: {
-      UnitsProgram whole = read_whole(job);
-      job.finish();
-      return whole;
-    }
+UnitsProgram shown(Object& job) {
+  UnitsProgram whole = read_whole(job);
+  job.finish();
+  return whole;
+}
+
+Answer nc_of(Object& job, std::string_view format) {
+  const UnitsProgram whole = read_whole(job);
+  const std::optional<Value> output = job.optional("output");
+  job.finish();
+  if (format != "json" && format != "nc")
+    refuse({.code = ErrorCode::Unsupported,
+            .field = "",
+            .value = std::string(format),
+            .limit = "json or nc",
+            .message = "the NC of a program has no format \"" + std::string(format) +
+                       "\": ask for json or nc"});
+  return units_nc(whole.program, output, format);
+}
+
+/// "name": of the workpieces; "chamfer": {"tool", "width"} asks for the jobs of the edges too.
+Answer holes_of(Object& job, const Request& request) {
+  std::string name = "part";
+  if (const std::optional<Value> given = job.optional("name")) name = given->name();
+  std::optional<ChamferWish> wish;
+  if (const std::optional<Value> chamfer = job.optional("chamfer")) {
+    Object object(*chamfer);
+    const Value tool = object.required("tool");
+    resolve_tool(tool, request.definitions);
+    wish = ChamferWish{tool.json(), object.number("width", above(0, 1000, "mm"))};
+    object.finish();
   }
-  throw Error(ErrorCode::Internal, "an operation without a function");
+  const std::optional<Value> step = job.optional("product_step");
+  const Json mouths = step ? mouths_of_step(*step, request.progress) : Json::object();
+  Json document;
+  try {
+    const Part part = read_part(job, request);
+    document = hole_edges(part, name, wish);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::NotTurned || !step) throw;
+    document = block_edges(mouths, name, wish);
+  }
+  job.finish();
+  document["mouths"] = mouths.value("mouths", Json::array());
+  return {.document = std::move(document), .arrays = {}, .text = {}};
+}
+
+UnitsProgram run(Operation operation, Object& job, const Request& request) {
+  if (operation == Operation::Plan) return planned(job, request);
+  if (operation == Operation::Edit) return edited(job);
+  return shown(job);
 }
 
 }  // namespace
@@ -98,7 +144,16 @@ UnitsProgram run(Object& job, const Request& request) {
 Answer units_program(const Request& request) {
   Object job{Value(request.document)};
   job.required("job");
-  const UnitsProgram whole = run(job, request);
+  const Operation operation = job.choice("operation", operations, Operation::Plan);
+  if (operation == Operation::Nc) return nc_of(job, request.format);
+  if (operation == Operation::Holes) return holes_of(job, request);
+  if (request.format == "nc")
+    refuse({.code = ErrorCode::Unsupported,
+            .field = "/operation",
+            .value = "absent",
+            .limit = "nc",
+            .message = "the format nc is of the operation \"nc\", which takes a program"});
+  const UnitsProgram whole = run(operation, job, request);
   Answer answer{.document = program_document(whole), .arrays = {}, .text = {}};
   if (request.format == "text") answer.text = units_text(whole.program);
   if (request.format == "svg") answer.text = units_svg(whole.program);

@@ -113,7 +113,7 @@ void draw_split(Svg& svg, const View& view, const Program& program, double z, co
   const units::Box s = units::box(program.stock);
   if (z <= s.z0 || z >= s.z1) return;
   svg.polyline(view, {{z, 0}, {z, s.r1}}, "axis");
-  svg.text(on_sheet(view, {z, s.r1}) + Vector2d(4, 12), what, "small");
+  svg.text(on_sheet(view, {z, 0}) + Vector2d(0, 30), what, "small", Svg::Anchor::Middle);
 }
 
 void draw_legend(Svg& svg, const Program& program) {
@@ -130,7 +130,7 @@ void draw_legend(Svg& svg, const Program& program) {
     svg.area(swatch, {{corner(0, -2), corner(14, -2), corner(14, 10), corner(0, 10)}},
              fmt::format("unit{}", i + 1));
     std::string label = unit_label(unit);
-    label = shortened(label, 58);
+    label = shortened(label, 46);
     svg.text({x + 22, y}, fmt::format("P{} {}", unit.process, label), "label");
     svg.text({width - 12, y}, std::string(name(unit.state)), "small", Svg::Anchor::End);
     y += line_height;

@@ -134,8 +134,17 @@ bool has_shape(UnitKind kind) {
   return kind != UnitKind::Hole && kind != UnitKind::FaceMill && kind != UnitKind::Unexplained;
 }
 
+/// Rounding noise of a file as the nought that it means.
+double tidy(double x) {
+  return std::abs(x) < 1e-6 ? 0 : x;
+}
+
 std::string span(double a, double b) {
-  return fmt::format("{:.6g} to {:.6g}", a, b);
+  return fmt::format("{:.6g} to {:.6g}", tidy(a), tidy(b));
+}
+
+std::string triple(const Eigen::Vector3d& v) {
+  return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", tidy(v.x()), tidy(v.y()), tidy(v.z()));
 }
 
 }  // namespace
@@ -201,17 +210,11 @@ Unit read_unit(const Value& value) {
 std::string unit_label(const Unit& unit) {
   std::string text = fmt::format("{:2} {}", unit.number, name(unit.kind));
   if (unit.hole) {
-    const Eigen::Vector3d& d = unit.hole->direction;
-    text += fmt::format(
-        "  diameter {:.6g}, depth {:.6g}, at [{:.6g}, {:.6g}, {:.6g}] along "
-        "[{:.4g}, {:.4g}, {:.4g}]",
-        unit.hole->diameter, unit.hole->depth, unit.hole->start.x(), unit.hole->start.y(),
-        unit.hole->start.z(), d.x(), d.y(), d.z());
+    text += fmt::format("  diameter {:.6g}, depth {:.6g}, at {} along {}", unit.hole->diameter,
+                        unit.hole->depth, triple(unit.hole->start), triple(unit.hole->direction));
   } else if (unit.face) {
-    const Eigen::Vector3d& n = unit.face->normal;
-    text +=
-        fmt::format("  {}, depth {:.6g}, Z {}, out of [{:.4g}, {:.4g}, {:.4g}]", unit.face->form,
-                    unit.face->depth, span(unit.face->z0, unit.face->z1), n.x(), n.y(), n.z());
+    text += fmt::format("  {}, depth {:.6g}, Z {}, out of {}", unit.face->form, unit.face->depth,
+                        span(unit.face->z0, unit.face->z1), triple(unit.face->normal));
   } else if (unit.remainder) {
     text += fmt::format("  {}, X {}, Z {}", unit.remainder->why,
                         span(unit.remainder->r0, unit.remainder->r1),

@@ -144,6 +144,26 @@ void measure_rest(const Model& model, double milled, std::vector<Lump>& lumps) {
     if (!lump.is_measured) lump.volume = std::max(rest, 0.0) * area_of(lump) / area;
 }
 
+/// Twice the farthest that any edge reaches from the axis along d; only edges that come near it are
+/// looked at closely.
+double length_along(const Placed& part, const Eigen::Vector3d& d) {
+  const Model& model = part.model();
+  double coarse = 0;
+  const auto sampled = [&](const Edge& edge) {
+    double far = 0;
+    for (const Eigen::Vector3d& p : edge.points) far = std::max(far, std::abs(p.dot(d)));
+    return far;
+  };
+  for (const Edge& edge : model.edges) coarse = std::max(coarse, sampled(edge));
+  double exact = coarse;
+  for (std::size_t i = 0; i < model.edges.size(); ++i) {
+    if (model.edges[i].points.empty() || sampled(model.edges[i]) < 0.9 * coarse) continue;
+    const Placed::Extent extent = part.extent(static_cast<int>(i), d);
+    exact = std::max({exact, std::abs(extent.low), std::abs(extent.high)});
+  }
+  return 2 * exact;
+}
+
 units::Product product_of(const Candidate& one, const std::optional<GivenAxis>& given) {
   const Model& model = one.part.model();
   units::Product product;
@@ -160,12 +180,8 @@ units::Product product_of(const Candidate& one, const std::optional<GivenAxis>& 
                  .value = text(model.volume / whole),
                  .limit = "> " + text(least_fill)});
   }
-  for (const Edge& edge : model.edges) {
-    for (const Eigen::Vector3d& p : edge.points) {
-      product.x_length = std::max(product.x_length, 2 * std::abs(p.x()));
-      product.y_length = std::max(product.y_length, 2 * std::abs(p.y()));
-    }
-  }
+  product.x_length = length_along(one.part, Eigen::Vector3d::UnitX());
+  product.y_length = length_along(one.part, Eigen::Vector3d::UnitY());
   for (const Meridian& meridian : one.turned.meridians) {
     const Face& face = model.faces[static_cast<std::size_t>(meridian.face)];
     if (face.sweep < full_turn) continue;

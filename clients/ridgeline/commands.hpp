@@ -29,8 +29,12 @@ void add_library_commands(CLI::App& app, Selected& selected);
 /// macro run, check and make.
 void add_macro_commands(CLI::App& app, Selected& selected);
 
-/// units plan, show, edit: turn-mill programs.
+/// units plan, show, edit, nc: turn-mill programs.
 void add_units_commands(CLI::App& app, Selected& selected);
+/// A STEP file, by its name.
+bool is_part_file(const std::string& path);
+/// Stores the workpieces that the hole edges of a part lie on; tells what could not be named.
+Outcome import_part(const Session& session, const std::string& path);
 
 /// status: the live instances of the service.
 void add_status_command(CLI::App& app, Selected& selected);

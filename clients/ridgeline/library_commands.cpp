@@ -66,6 +66,7 @@ Outcome put(const Session& session, const Arguments& arguments) {
 }
 
 Outcome import_all(const Session& session, const Arguments& arguments) {
+  if (is_part_file(arguments.file)) return import_part(session, arguments.file);
   return ask(session, {{"operation", "import"}, {"definitions", definitions_in(arguments.file)}});
 }
 
@@ -118,7 +119,10 @@ void add_library_commands(CLI::App& app, Selected& selected) {
           *arguments);
   add_file(add(*library, selected, arguments, "import", "Store many definitions, all or none",
                import_all),
-           *arguments, "Array of definitions, or what export wrote (JSON); - for standard input");
+           *arguments,
+           "Array of definitions, or what export wrote (JSON), or - for standard input; or a STEP "
+           "file, for\n"
+           "the workpieces that its hole edges lie on");
   optional_kind(
       add(*library, selected, arguments, "export", "Print every definition, ready for import",
           [](const Session& s, const Arguments& a) { return with_kind(s, "export", a); }));

@@ -24,27 +24,6 @@ const Contour& outer_loop(const std::vector<Contour>& loops) {
   });
 }
 
-/// The product side of a bar region: for each z the least r of an outer one, the greatest r of an
-/// inner one; steps in between. Ascending in z.
-std::vector<Segment> chain(const Region& region, bool is_outer) {
-  std::vector<Segment> found;
-  const std::vector<Cell>& cells = region.cells;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const bool is_first = i == 0 || cells[i - 1].z0 != cells[i].z0;
-    const bool is_last = i + 1 == cells.size() || cells[i + 1].z0 != cells[i].z0;
-    if (is_outer ? !is_first : !is_last) continue;
-    Segment next = segment_of(is_outer ? cells[i].inner : cells[i].outer, cells[i].z0, cells[i].z1);
-    if (!found.empty()) {
-      if (is_near(found.back().end, next.start))
-        next.start = found.back().end;
-      else
-        found.push_back({found.back().end, next.start, {}});
-    }
-    found.push_back(next);
-  }
-  return found;
-}
-
 std::vector<Segment> reversed(std::vector<Segment> segments) {
   std::reverse(segments.begin(), segments.end());
   for (Segment& segment : segments) {
@@ -68,7 +47,7 @@ void draw_bar(Unit& unit) {
   const Box b = box(unit.region);
   const bool is_outer = unit.kind == UnitKind::BarOuter;
   unit.start = {is_outer ? b.r1 : b.r0, unit.process == 1 ? b.z0 : b.z1};  // S803 to S806
-  unit.shape = simplified(chain(unit.region, is_outer));
+  unit.shape = simplified(limit_of(unit.region, is_outer ? Limit::Least : Limit::Greatest));
   if (unit.process == 2) unit.shape = reversed(std::move(unit.shape));
 }
 
@@ -113,6 +92,26 @@ Region hole_region(const Unit& unit) {
 }
 
 }  // namespace
+
+std::vector<Segment> limit_of(const Region& region, Limit limit) {
+  const bool is_least = limit == Limit::Least;
+  std::vector<Segment> found;
+  const std::vector<Cell>& cells = region.cells;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const bool is_first = i == 0 || cells[i - 1].z0 != cells[i].z0;
+    const bool is_last = i + 1 == cells.size() || cells[i + 1].z0 != cells[i].z0;
+    if (is_least ? !is_first : !is_last) continue;
+    Segment next = segment_of(is_least ? cells[i].inner : cells[i].outer, cells[i].z0, cells[i].z1);
+    if (!found.empty()) {
+      if (is_near(found.back().end, next.start))
+        next.start = found.back().end;
+      else
+        found.push_back({found.back().end, next.start, {}});
+    }
+    found.push_back(next);
+  }
+  return found;
+}
 
 bool is_turned(const Unit& unit) {
   if (unit.kind == UnitKind::FaceMill || unit.kind == UnitKind::Unexplained) return false;

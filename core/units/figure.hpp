@@ -13,6 +13,10 @@ void draw_figure(Unit& unit);
 /// that bounds nothing.
 Region figure_region(const Unit& unit);
 
+/// For each z the least or the greatest r of a region, with steps in between. Ascending in z.
+enum class Limit { Least, Greatest };
+std::vector<Segment> limit_of(const Region& region, Limit limit);
+
 /// Does the kind turn? Holes do when they lie on the turning axis.
 bool is_turned(const Unit& unit);
 

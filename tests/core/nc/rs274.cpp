@@ -86,7 +86,10 @@ CanonRun run_rs274(const std::string& program) {
   const TemporaryFolder folder;
   std::ofstream(folder.file("program.ngc")) << program;
   // The stand-alone driver reads the tool table in inches.
-  std::ofstream(folder.file("tool.tbl")) << "T12 P12 D0.236220472440945 Z3.93700787401575\n";
+  std::ofstream table(folder.file("tool.tbl"));
+  table << "T12 P12 D0.236220472440945 Z3.93700787401575\n";
+  for (int tool = 1; tool <= 8; ++tool) table << "T" << tool << " P" << tool << " Z0\n";
+  table.close();
   const std::string command = "cd " + folder.file("") + " && timeout 20 rs274 -g -n 2 -t " +
                               folder.file("tool.tbl") + " -v " + folder.file("fresh.var") + " " +
                               folder.file("program.ngc") + " > " + folder.file("canon") + " 2>&1";

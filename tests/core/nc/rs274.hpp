@@ -23,7 +23,8 @@ struct CanonRun {
   std::vector<Eigen::Vector3d> length_offsets;  ///< of each USE_TOOL_LENGTH_OFFSET
 };
 
-/// Runs a program text with tool 12 of length 100 mm in a directory of its own, 20 s at most.
+/// Runs a program text with tool 12 of length 100 mm and tools 1 to 8 of none in a directory of its
+/// own, 20 s at most.
 CanonRun run_rs274(const std::string& program);
 
 }  // namespace ridgeline::nc
