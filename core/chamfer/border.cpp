@@ -26,9 +26,9 @@ double delta_rate(const SectionAngle& angle, double theta_rate, const Vector2d& 
 
 }  // namespace
 
-// With ' = d/du, profile p(u) of speed L = perimeter, normal n2' = kappa L t2, body F of Hessian Q:
-//   P'  = (p', z'),  n1.P' = 0                        (a)
-//   P'' = (p'', z''), n1.P'' + P'.Q P' = 0            (b)
+// With ' = d/du, wall of normal n2' = kappa (P'.t2) t2, body F of Hessian Q:
+//   P'  = rate t                                      (a)
+//   n1.P'' + P'.Q P' = 0, n2.P'' + kappa (P'.t2)^2 = 0 (b)
 //   c = m n1.e1 = -cos(theta),  theta' = c'/sin(theta) (c)
 //   e2 = v/|v|, v = m n1 - c e1                       (d)
 //   G2 = P + S e1 + T e2,  s(G2) = 0                  (e)
@@ -39,15 +39,24 @@ BorderRates border_rates(const Section& section, const SectionPoint& point, doub
   const auto& [P, n1, n2, t, e1, e2, theta] = point.ridge;
   const double m = line.m;
   const double W = section.chamfer->W;
-  const geometry::ProfilePoint profile = geometry::profile_at(line.profile, u);
-  const double L = geometry::perimeter(line.profile);
-  const Vector2d p1 = L * profile.tangent;
-  const Vector2d p2 = -(L * L * profile.curvature) * profile.normal;
+  const geometry::ProfilePoint profile = profile_at(line, u);
 
   BorderRates rates;
-  rates.P = {p1.x(), p1.y(), -n1.head<2>().dot(p1) / n1.z()};  // (a)
+  rates.P = ridge_rate(line, point.ridge, profile, u) * t;  // (a)
+  const Vector2d p1 = rates.P.head<2>();
   const Vector3d QP1 = hessian_times(line.F, rates.P);
-  rates.P2 = {p2.x(), p2.y(), -(rates.P.dot(QP1) + n1.head<2>().dot(p2)) / n1.z()};  // (b)
+  // (b) in the plane of n1 and n2; then along t: the profile is passed at a constant rate. Of a
+  // merged edge it is not, and that part is left out.
+  const double along = p1.dot(profile.tangent);
+  const double body_bend = -rates.P.dot(QP1);
+  const double wall_bend = -profile.curvature * along * along;
+  const double n12 = n1.dot(n2);
+  rates.P2 =
+      ((body_bend - n12 * wall_bend) * n1 + (wall_bend - n12 * body_bend) * n2) / (1 - n12 * n12);
+  if (!line.merged) {
+    const Vector2d& t2 = profile.tangent;
+    rates.P2 -= rates.P2.head<2>().dot(t2) / t.head<2>().dot(t2) * t;
+  }
 
   const Vector3d e1_rate(profile.curvature * p1.x(), profile.curvature * p1.y(), 0);
   const double c = m * n1.dot(e1);
@@ -88,12 +97,17 @@ std::vector<double> wall_breaks(const Section& section) {
   constexpr double most_reach = 0.1;
   const geometry::Profile& profile = section.ridge.profile;
   std::vector<double> breaks;
+  std::vector<double> joints;
   for (const double joint : geometry::joints(profile)) {
-    const geometry::ProfilePoint at = geometry::profile_at(profile, joint);
+    for (const double u : passages(section.ridge, joint)) joints.push_back(u);
+  }
+  for (const double joint : joints) {
+    const geometry::ProfilePoint at = profile_at(section.ridge, joint);
+    const Vector2d onward = is_forward(section.ridge, joint) ? at.tangent : Vector2d(-at.tangent);
     const auto past = [&](double u) -> RootSample {
       const SectionPoint point = section_at(section, u);
-      return {.value = at.tangent.dot(point.G2.head<2>() - at.p),
-              .slope = at.tangent.dot(border_rates(section, point, u).G2.head<2>())};
+      return {.value = onward.dot(point.G2.head<2>() - at.p),
+              .slope = onward.dot(border_rates(section, point, u).G2.head<2>())};
     };
     try {
       double reach = least_reach;

@@ -236,20 +236,25 @@ void make_ascending(std::vector<double>& parameters) {
   parameters.erase(first, last);
 }
 
+void add_passages(Section& section, double v) {
+  const std::vector<double> all = passages(section.ridge, v);
+  section.corners.insert(section.corners.end(), all.begin(), all.end());
+}
+
 }  // namespace
 
 Section section(const geometry::Edge& edge, const Chamfer& chamfer) {
   require(chamfer);
   const auto& [W, D, section_angle, method] = chamfer;
   Section s{.edge = &edge, .chamfer = &chamfer, .ridge = ridge_line(edge)};
-  s.corners = joints(edge.profile);
+  for (const double joint : joints(edge.profile)) add_passages(s, joint);
   s.CM = std::sqrt((D - W / 2) * (D + W / 2));  // [E 16]
   if (const auto* constant = std::get_if<ConstantAngle>(&section_angle)) {
     s.sin_delta = std::sin(constant->delta);
     s.cos_delta = std::cos(constant->delta);
   } else if (const auto* table = std::get_if<AngleTable>(&section_angle)) {
     for (const AngleTable::Entry& entry : table->entries) {
-      s.corners.push_back(parameter_at(edge.profile, entry.phi));
+      add_passages(s, parameter_at(edge.profile, entry.phi));
     }
   }
   make_ascending(s.corners);
@@ -265,7 +270,7 @@ Section section(const geometry::Edge& edge, const Chamfer& chamfer) {
 SectionPoint section_at(const Section& section, double u) {
   const geometry::RidgeLine& line = section.ridge;
   const double W = section.chamfer->W;
-  const geometry::ProfilePoint profile = profile_at(line.profile, u);
+  const geometry::ProfilePoint profile = profile_at(line, u);
   SectionPoint point;
   point.ridge = ridge_at(line, profile, u);
   const auto& [P, n1, n2, t, e1, e2, theta] = point.ridge;

@@ -35,6 +35,11 @@ const geometry::Hole& hole_of(const Job& job) {
   return *hole;
 }
 
+/// u of the ridge point in the direction phi from the hole axis; a merged edge has its own turn.
+double parameter_at(const geometry::Edge& edge, double phi) {
+  return edge.merged ? wrapped(phi / full_turn) : geometry::parameter_at(edge.profile, phi);
+}
+
 CutPoint in_work(const geometry::Edge& edge, double u, const SectionPoint& point) {
   return {.u = u,
           .P = geometry::to_outer(edge.frame, point.ridge.P),
@@ -76,7 +81,7 @@ public:
       : job_(job),
         progress_(progress),
         edge_(geometry::edge_of(job.workpiece, hole_of(job), job.edge, job.side)),
-        start_u_(geometry::parameter_at(edge_.profile, job.start_angle)) {}
+        start_u_(parameter_at(edge_, job.start_angle)) {}
 
   Result run();
 
@@ -131,8 +136,7 @@ std::vector<CutPoint> Solver::overlap(const std::vector<CutPoint>& loop, bool re
                                       double width) const {
   if (!(job_.overlap > 0)) return {};
   const double sign = reversed ? -1 : 1;
-  const double end_u =
-      geometry::parameter_at(edge_.profile, job_.start_angle + sign * job_.overlap);
+  const double end_u = parameter_at(edge_, job_.start_angle + sign * job_.overlap);
   const auto travelled = [&](double u) { return wrapped(sign * (u - start_u_)); };
   const double end = job_.overlap < full_turn ? travelled(end_u) : 1;
   std::vector<CutPoint> again;

@@ -126,7 +126,7 @@ std::optional<Mouth> mouth(const std::vector<Bound>& bounds, const Frame& frame,
 }
 
 // How hole and cylinder meet, seen along A1: a closed ridge on each side while the hole is within
-// the cylinder (design: section 2).
+// the cylinder, one that goes round where it breaks out (design: section 2).
 void require_meeting(double half_width, double f, double R) {
   const std::string sizes = "half width " + text(half_width, "mm") + ", eccentric distance " +
                             text(f, "mm") + ", body radius " + text(R, "mm");
@@ -135,14 +135,10 @@ void require_meeting(double half_width, double f, double R) {
     throw Error(ErrorCode::HoleMissesBody, "the hole passes beside the surface: " + sizes,
                 {.field = "/hole", .value = text(f, "mm"), .limit = text(half_width + R, "mm")});
   }
-  if (std::abs(reach - R) <= R * tangent_band) {
+  const double other = half_width - std::abs(f);  // the side that the axis is farther from
+  if (std::abs(reach - R) <= R * tangent_band || std::abs(other - R) <= R * tangent_band) {
     throw Error(ErrorCode::TangentIntersection,
                 "the hole touches the side of the surface, the ridge has a corner: " + sizes,
-                {.field = "/hole", .value = text(reach, "mm"), .limit = text(R, "mm")});
-  }
-  if (reach > R) {
-    throw Error(ErrorCode::HoleMissesBody,
-                "the hole breaks out of the side of the surface: " + sizes,
                 {.field = "/hole", .value = text(reach, "mm"), .limit = text(R, "mm")});
   }
 }
@@ -259,6 +255,17 @@ Edge edge_of(const Workpiece& workpiece, const Hole& hole, EdgeKind kind, Side s
 
   if (const auto* cylinder = std::get_if<Cylinder>(&edge.body)) {
     require_meeting(half_extents(hole.profile).x(), f, cylinder->radius);
+    if (breaks_out(hole.profile, f, cylinder->radius)) {
+      if (hole.walls == 1 || hole.depth) {
+        throw Error(ErrorCode::HoleMissesBody,
+                    "a hole that breaks out of the side of the surface has one edge round both "
+                    "walls: it must go through both",
+                    {.field = "/hole",
+                     .value = text(half_extents(hole.profile).x(), "mm"),
+                     .limit = text(cylinder->radius - std::abs(f), "mm")});
+      }
+      edge.merged = break_out(hole.profile, f, cylinder->radius, side == Side::Entry);
+    }
   }
   require_within_bounds(edge);
   return edge;

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/base/error.hpp"
 #include "core/base/text.hpp"
@@ -21,6 +22,8 @@ namespace {
 double height_at(const RidgeLine& ridge, const Eigen::Vector2d& p, double u) {
   const Body& F = ridge.F;
   if (F.a == 0) return -(F.n.x() * p.x() + F.n.y() * p.y() + F.c) / F.n.z();
+  if (ridge.merged)
+    return (height_across(*ridge.merged, ridge.profile, u) - F.hy * p.y()) * ridge.over_hz;
   const double x = p.x() + F.f;
   const double square = (ridge.R1 - x) * (ridge.R1 + x);
   if (!(square > 0)) refuse(u);
@@ -35,7 +38,8 @@ RidgeLine ridge_line(const Edge& edge) {
                  .m = edge.m,
                  .R1 = 0,
                  .over_hz = 1,
-                 .side = edge.side == Side::Entry ? 1. : -1.};
+                 .side = edge.side == Side::Entry ? 1. : -1.,
+                 .merged = edge.merged};
   if (const auto* cylinder = std::get_if<Cylinder>(&edge.body)) {
     // The axis passes (-f, 0, 0) and has no x part; q is measured across it, upwards.
     const Eigen::Vector3d& A1 = cylinder->axis;
@@ -80,8 +84,31 @@ RidgePoint ridge_at(const RidgeLine& ridge, const ProfilePoint& profile, double 
           .theta = std::acos(std::clamp(-c, -1., 1.))};
 }
 
+ProfilePoint profile_at(const RidgeLine& ridge, double u) {
+  return profile_at(ridge.profile, ridge.merged ? profile_parameter(*ridge.merged, u) : u);
+}
+
+std::vector<double> passages(const RidgeLine& ridge, double v) {
+  return ridge.merged ? passages(*ridge.merged, v) : std::vector<double>{v};
+}
+
+bool is_forward(const RidgeLine& ridge, double u) {
+  return !ridge.merged || std::cos(2 * std::numbers::pi * u) > 0;
+}
+
+// t.t2 = n1.z' / sin(theta), and of a cylinder n1.z' = a hz q: where a merged edge turns, q and the
+// rate of the profile vanish together.
+double ridge_rate(const RidgeLine& ridge, const RidgePoint& point, const ProfilePoint& profile,
+                  double u) {
+  const double L = perimeter(ridge.profile);
+  if (!ridge.merged) return L / point.t.head<2>().dot(profile.tangent);
+  const double s = ridge.m * point.n1.dot(point.e2);
+  return L * ridge.merged->half * 2 * std::numbers::pi * s /
+         (ridge.F.a * ridge.F.hz * height_rate(*ridge.merged, ridge.profile, u));
+}
+
 RidgePoint ridge_at(const RidgeLine& ridge, double u) {
-  return ridge_at(ridge, profile_at(ridge.profile, u), u);
+  return ridge_at(ridge, profile_at(ridge, u), u);
 }
 
 RidgePoint ridge_at(const Edge& edge, double u) {

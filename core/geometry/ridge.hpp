@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/geometry/break_out.hpp"
 #include "core/geometry/frame.hpp"
 #include "core/geometry/profile.hpp"
 #include "core/geometry/surface.hpp"
@@ -28,9 +30,9 @@ struct Edge {
   Profile profile;  ///< wall SW: the profile extruded along z'
   Surface body;     ///< SS, in the hole frame
   double m = 1;     ///< material sign: +1 material at body distance > 0 (bore), -1 at < 0 (outside)
-  Side side = Side::Entry;    ///< entry: the meeting point of greater z'
-  std::vector<Bound> bounds;  ///< a chamfer must keep inside each
-  bool merged = false;  ///< broken-out hole: entry and exit are one curve, parametrised about A1
+  Side side = Side::Entry;              ///< entry: the meeting point of greater z'
+  std::vector<Bound> bounds;            ///< a chamfer must keep inside each
+  std::optional<BreakOut> merged = {};  ///< of a hole that breaks out: entry and exit are one curve
 };
 
 /// A point of the ridge with its section frame (design: sections 2 and 3; [E 2]..[E 10]). Hole
@@ -83,11 +85,22 @@ struct RidgeLine {
   double R1 = 0;       ///< of a cylinder, 0 for a plane [mm]
   double over_hz = 1;  ///< 1 / F.hz
   double side = 1;     ///< of q: +1 entry, -1 exit
+  std::optional<BreakOut> merged = {};
 };
 RidgeLine ridge_line(const Edge& edge);
 
+/// The point of the profile that the ridge at u stands over.
+ProfilePoint profile_at(const RidgeLine& ridge, double u);
+
+/// The u in [0, 1) at which the ridge stands over the point v of the profile: one; of a merged edge
+/// two or none.
+std::vector<double> passages(const RidgeLine& ridge, double v);
+
+/// Does the profile parameter grow with u there? (Of a merged edge it swings to and fro.)
+bool is_forward(const RidgeLine& ridge, double u);
+
 /// The ridge at parameter u in [0, 1), counter-clockwise seen from +A2 from phi = 0; merged edges:
-/// angle about A1.
+/// as BreakOut says.
 /// Throws Error{HoleMissesBody} where the generator at u does not meet the body (an edge that
 /// edge_of() did not make).
 RidgePoint ridge_at(const Edge& edge, double u);
@@ -95,5 +108,9 @@ RidgePoint ridge_at(const RidgeLine& ridge, double u);
 
 /// The same where the point of the profile at u is already known.
 RidgePoint ridge_at(const RidgeLine& ridge, const ProfilePoint& profile, double u);
+
+/// How fast P runs along its tangent t at u: dP/du = rate t [mm].
+double ridge_rate(const RidgeLine& ridge, const RidgePoint& point, const ProfilePoint& profile,
+                  double u);
 
 }  // namespace ridgeline::geometry

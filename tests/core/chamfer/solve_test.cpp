@@ -101,6 +101,18 @@ INSTANTIATE_TEST_SUITE_P(
               job.side = Side::Exit;
             },
             {0, 0, 1}},
+        Way{"inner_round_a_hole_that_breaks_out_of_the_bore",
+            [](Job& job) {
+              job.workpiece.outer_radius = 40;
+              job.workpiece.holes[0].profile.R2 = 6;
+              job.workpiece.holes[0].position = {6, 0, 0};
+              job.tool.radius = 2;
+              job.tool.neck_radius = job.tool.shank_radius = 0.5;
+              job.tool.neck_length = 150;
+              job.tool.stickout = 160;
+              job.clearance = 2;
+            },
+            {0, 0, 1}},
         Way{"outer_acute_tip_with_the_centre_in_it",  // the centre lies in the tip that is cut off
             [](Job& job) {
               job.edge = EdgeKind::Outer;
