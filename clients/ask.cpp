@@ -111,7 +111,9 @@ Error Client::Session::absent(const Pending& pending) const {
   const std::string where = " answers in DDS domain " + std::to_string(options_.domain);
   const auto waited = has_seen_any_ ? options_.absence : options_.discovery;
   const std::string lost =
-      pending.heard == Clock::time_point{} ? "" : "; the one that had the request was lost";
+      pending.heard == Clock::time_point{}
+          ? ""
+          : "; the one that had request " + wire::text(pending.id) + " was lost";
   return {ErrorCode::NoService,
           whom + where + lost,
           {.field = "",
@@ -171,8 +173,9 @@ jobs::Answer Client::Session::wait(Lock& lock, Pending& pending, const Call& cal
   if (!has_live()) return jobs::refusal(absent(pending));
   return jobs::refusal(
       {ErrorCode::Timeout,
-       fmt::format("no answer within {:.3g} s{}", seconds(patience.timeout),
-                   pending.instance ? " from instance " + pending.instance->status.name : ""),
+       fmt::format("no answer within {:.3g} s{} to request {}", seconds(patience.timeout),
+                   pending.instance ? " from instance " + pending.instance->status.name : "",
+                   wire::text(pending.id)),
        {.field = "",
         .value = fmt::format("{:.3g} s", seconds(patience.timeout)),
         .limit = "a timeout longer than the job takes",

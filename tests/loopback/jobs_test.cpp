@@ -190,6 +190,9 @@ TEST_F(LoopbackJobs, ATimeoutIsNamedAndEndsTheWork) {
   EXPECT_EQ(code(answer), "timeout");
   EXPECT_LT(Clock::now() - begin, 1s);
   EXPECT_TRUE(eventually([&] { return client_->status(1s).at(0).running == 0; }));
+  ASSERT_TRUE(eventually([&] { return events("north", "request").size() >= 2; }));
+  const std::string logged = events("north", "request").back().at("id");
+  EXPECT_NE(answer.document.dump().find(logged), std::string::npos) << answer.document << logged;
 }
 
 TEST_F(LoopbackJobs, TerminatedItFinishesWhatItIsComputing) {
