@@ -4,6 +4,7 @@
 
 #include "core/nc/cl.hpp"
 #include "jobs/chamfer_job.hpp"
+#include "jobs/chamfer_page.hpp"
 #include "jobs/chamfer_program.hpp"
 #include "jobs/check.hpp"
 #include "jobs/drawing.hpp"
@@ -148,11 +149,14 @@ void add_arrays(const Solved& solved, Answer& answer) {
   answer.arrays.push_back(moves_array("/moves", solved.rounded, answer.document));
 }
 
-std::string text_of(const ChamferJob& job, const Solved& solved, std::string_view format) {
+std::string text_of(const ChamferJob& job, const Solved& solved, const nlohmann::json& document,
+                    std::string_view format) {
   if (format == "nc") return nc::write(solved.program);
   if (format == "cl") return nc::write_cl(solved.program);
   if (format == "csv") return nc::write_csv(solved.rounded);
   if (format == "svg") return chamfer_drawing(job.job, solved.subject.edge, solved.result);
+  if (format == "html")
+    return chamfer_page(job, solved.result, solved.rounded, solved.subject, document);
   throw Error(ErrorCode::Internal, "a format that chamfer jobs list but do not write");
 }
 
@@ -167,7 +171,7 @@ Answer chamfer(const Request& request) {
   if (request.format == "json")
     add_arrays(solved, answer);
   else
-    answer.text = text_of(job, solved, request.format);
+    answer.text = text_of(job, solved, answer.document, request.format);
   return answer;
 }
 

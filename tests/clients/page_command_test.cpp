@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+
+#include "tests/clients/process.hpp"
+
+namespace ridgeline::tests {
+namespace {
+
+using Json = nlohmann::json;
+
+/// The data that a page holds for its viewer.
+Json data_of(const std::string& page) {
+  const std::string begin = "<script id=\"data\" type=\"application/json\">";
+  const std::size_t at = page.find(begin);
+  if (at == std::string::npos) throw std::runtime_error("the page has no data element");
+  const std::size_t end = page.find("</script>", at);
+  return Json::parse(page.substr(at + begin.size(), end - at - begin.size()));
+}
+
+std::string page_of(const Json& job) {
+  const Finished finished = ridgeline({"chamfer", "-", "--local", "--format", "html"}, job.dump());
+  EXPECT_EQ(finished.status, 0) << finished.out.substr(0, 1000);
+  return finished.out;
+}
+
+Json inline_job() {
+  return Json::parse(read("clients/examples/inline.json"));
+}
+
+TEST(Page, HoldsTheReportOfTheResult) {
+  const Json job = inline_job();
+  const Json report = ridgeline({"chamfer", "-", "--local"}, job.dump()).json().at("report");
+  const Json data = data_of(page_of(job));
+  std::size_t compared = 0;
+  for (const Json& row : data.at("report")) {
+    if (!row.contains("key")) continue;
+    EXPECT_EQ(row.at("value"), report.at(row.at("key").get<std::string>())) << row;
+    ++compared;
+  }
+  EXPECT_EQ(compared, 12);
+}
+
+TEST(Page, NeedsNothingFromTheNetwork) {
+  const std::string page = page_of(inline_job());
+  for (const char* reference : {"src=\"http", "href=\"http", "@import", "url(http"})
+    EXPECT_EQ(page.find(reference), std::string::npos) << reference;
+}
+
+// A name cannot end the data element, nor begin a comment that hides its end.
+TEST(Page, KeepsNamesAsText) {
+  Json job = inline_job();
+  const std::string name = "</script><!--<script>alert(1)</script>";
+  job["workpiece"]["name"] = name;
+  const Json data = data_of(page_of(job));
+  EXPECT_NE(data.at("title").get<std::string>().find(name), std::string::npos) << data.at("title");
+}
+
+}  // namespace
+}  // namespace ridgeline::tests

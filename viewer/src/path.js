@@ -1,0 +1,115 @@
+// The path by kind of move, the ridge line, the chamfer band and the tool that plays along.
+import * as THREE from 'three';
+import {LineSegments2} from 'three/examples/jsm/lines/LineSegments2.js';
+import {LineSegmentsGeometry} from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
+import {LineMaterial} from 'three/examples/jsm/lines/LineMaterial.js';
+
+export const moveColors = {
+  rapid: 0x9aa3ad, approach: 0x0891b2, lead_in: 0x16a34a, cut: 0x2563eb, lead_out: 0xca8a04, retract: 0x9333ea,
+  line: 0x2563eb, arc: 0x16a34a, dwell: 0xca8a04,
+};
+
+function segments(positions, colors, width) {
+  const geometry = new LineSegmentsGeometry();
+  geometry.setPositions(positions);
+  if (colors) geometry.setColors(colors);
+  const material = new LineMaterial({linewidth: width, vertexColors: Boolean(colors), color: colors ? 0xffffff : 0xea580c});
+  return new LineSegments2(geometry, material);
+}
+
+/** The points of the path: start and the end of every move, with length and time along it. */
+export function track(motion) {
+  const count = motion.kinds.length + 1;
+  const points = new Float32Array(3 * count);
+  points.set(motion.start, 0);
+  points.set(motion.to, 3);
+  const lengths = new Float64Array(count);
+  for (let i = 1; i < count; ++i) {
+    const d = Math.hypot(points[3 * i] - points[3 * i - 3], points[3 * i + 1] - points[3 * i - 2], points[3 * i + 2] - points[3 * i - 1]);
+    lengths[i] = lengths[i - 1] + d;
+  }
+  return {points, lengths, count, total: lengths[count - 1]};
+}
+
+/** The point at a length along the track and the index of the move that runs there. */
+export function placeAt(track, length) {
+  let low = 1;
+  let high = track.count - 1;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (track.lengths[middle] < length) low = middle + 1; else high = middle;
+  }
+  const from = track.lengths[low - 1];
+  const span = track.lengths[low] - from;
+  const s = span > 0 ? Math.min(1, Math.max(0, (length - from) / span)) : 1;
+  const p = track.points;
+  const mix = (k) => p[3 * low - 3 + k] + s * (p[3 * low + k] - p[3 * low - 3 + k]);
+  return {move: low - 1, point: [mix(0), mix(1), mix(2)]};
+}
+
+export function pathObject(motion, {points, count}) {
+  const positions = new Float32Array(6 * (count - 1));
+  const colors = new Float32Array(6 * (count - 1));
+  const color = new THREE.Color();
+  for (let i = 1; i < count; ++i) {
+    positions.set(points.subarray(3 * i - 3, 3 * i + 3), 6 * (i - 1));
+    color.set(moveColors[motion.names[motion.kinds[i - 1]]] ?? 0x2563eb);
+    colors.set([color.r, color.g, color.b, color.r, color.g, color.b], 6 * (i - 1));
+  }
+  return segments(positions, colors, 2);
+}
+
+/** A closed curve through the points. */
+export function loopObject(points, width) {
+  const n = points.length / 3;
+  const positions = new Float32Array(6 * n);
+  for (let i = 0; i < n; ++i) {
+    const j = (i + 1) % n;
+    positions.set(points.subarray(3 * i, 3 * i + 3), 6 * i);
+    positions.set(points.subarray(3 * j, 3 * j + 3), 6 * i + 3);
+  }
+  return segments(positions, null, width);
+}
+
+/** The chamfer: a band between the borders G1 and G2, ends = x1 y1 z1 x2 y2 z2 a point. */
+export function bandObject(ends) {
+  const n = ends.length / 6;
+  const index = [];
+  for (let i = 0; i < n; ++i) {
+    const j = (i + 1) % n;
+    index.push(2 * i, 2 * i + 1, 2 * j + 1, 2 * i, 2 * j + 1, 2 * j);
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.BufferAttribute(ends, 3));
+  geometry.setIndex(index);
+  geometry.computeVertexNormals();
+  // The surfaces are drawn whole: the band lies up to its width below them and is drawn that much nearer.
+  const width = Math.hypot(ends[3] - ends[0], ends[4] - ends[1], ends[5] - ends[2]);
+  const material = new THREE.MeshStandardMaterial({color: 0xf97316, side: THREE.DoubleSide, roughness: 0.8});
+  material.onBeforeCompile = (shader) => {
+    shader.vertexShader = shader.vertexShader.replace('#include <project_vertex>', `#include <project_vertex>
+      gl_Position = projectionMatrix * vec4(mvPosition.xyz * (1.0 - ${(0.75 * width).toFixed(6)} / length(mvPosition.xyz)), 1.0);`);
+  };
+  return new THREE.Mesh(geometry, material);
+}
+
+/** Ball, neck, shank and holder about the tool axis; origin at the ball's centre. */
+export function toolObject(tool) {
+  const group = new THREE.Group();
+  const steel = new THREE.MeshStandardMaterial({color: 0x0f766e, roughness: 0.4, metalness: 0.4, transparent: true, opacity: 0.75});
+  const holder = new THREE.MeshStandardMaterial({color: 0x475569, roughness: 0.7, transparent: true, opacity: 0.5});
+  group.add(new THREE.Mesh(new THREE.SphereGeometry(tool.radius, 48, 32), steel));
+  const part = (radius, from, to, material) => {
+    if (!(radius > 0) || !(to > from)) return;
+    const mesh = new THREE.Mesh(new THREE.CylinderGeometry(radius, radius, to - from, 48), material);
+    mesh.position.y = (from + to) / 2 - tool.radius;
+    group.add(mesh);
+  };
+  const stickout = tool.stickout ?? tool.neck_length ?? 8 * tool.radius;
+  const neck = tool.neck_length ?? stickout;
+  part(tool.neck_radius ?? tool.radius * 0.5, tool.radius, neck, steel);
+  part(tool.shank_radius, neck, stickout, steel);
+  part(tool.holder_radius, stickout, stickout + 4 * (tool.holder_radius ?? 0), holder);
+  group.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), new THREE.Vector3(...tool.axis));
+  return group;
+}
