@@ -41,6 +41,7 @@ Answer predict(const Request& request) {
   if (request.format == "nc")
     refuse_program(
         "one engagement has no program: ask for json, csv or svg, or predict along a path");
+  if (job.has("depths")) return predict_lobes(job, request);
   if (job.has("speeds_rpm")) return predict_sweep(job, request);
   return predict_engagement(job, request);
 }

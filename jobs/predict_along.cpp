@@ -29,6 +29,9 @@ cutting::CorrectOptions read_correct(const Value& value) {
   correct.max_shifts = object.integer("max_shifts", 1, 50, correct.max_shifts);
   correct.largest_shift =
       object.number("largest_shift", between(0.001, 1, "of the radius"), correct.largest_shift);
+  enum class Aim { Surface, Width };
+  constexpr Choices<Aim, 2> aims{{{"surface", Aim::Surface}, {"width", Aim::Width}}};
+  correct.by_borders = object.choice("aim", aims, Aim::Surface) == Aim::Width;
   object.finish();
   return correct;
 }

@@ -22,6 +22,12 @@ Answer predict_engagement(Object& job, const Request& request);
 /// The same with "speeds_rpm": error and stability against the speed.
 Answer predict_sweep(Object& job, const Request& request);
 
+/// The same with "speeds_rpm" and "depths": the depth at which the cut begins to chatter.
+Answer predict_lobes(Object& job, const Request& request);
+
+/// [rpm, ...] or {"from", "to", "step"}.
+std::vector<double> read_speeds(const Value& value);
+
 /// "stable", "flip" or "unstable"; null where it was not or cannot be tested, and why in
 /// `warnings`.
 nlohmann::json stability_document(const PredictJob& job, std::vector<std::string>& warnings,

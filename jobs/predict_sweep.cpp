@@ -1,7 +1,6 @@
-#include <atomic>
 #include <cmath>
-#include <thread>
 
+#include "jobs/in_parallel.hpp"
 #include "jobs/predict_kinds.hpp"
 #include "jobs/svg.hpp"
 
@@ -11,28 +10,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t most_speeds = 100'000;
-
-// [rpm, ...] or {"from", "to", "step"}.
-std::vector<double> read_speeds(const Value& value) {
-  if (!value.json().is_object()) {
-    std::vector<double> speeds = value.numbers(speed_range);
-    if (speeds.empty() || speeds.size() > most_speeds)
-      value.refuse("1 to " + std::to_string(most_speeds) + " speeds");
-    return speeds;
-  }
-  Object range(value);
-  const double from = range.number("from", speed_range);
-  const double to = range.number("to", between(from, speed_range.max, speed_range.unit));
-  const double step = range.number("step", above(0, speed_range.max, speed_range.unit));
-  range.finish();
-  const double count = std::floor((to - from) / step + 1e-9) + 1;
-  if (!(count <= static_cast<double>(most_speeds)))
-    range.refuse("step",
-                 "so large that there are at most " + std::to_string(most_speeds) + " speeds");
-  std::vector<double> speeds;
-  for (int i = 0; i < static_cast<int>(count); ++i) speeds.push_back(from + i * step);
-  return speeds;
-}
 
 // What one speed gives.
 struct AtSpeed {
@@ -70,7 +47,12 @@ std::string csv_of(const std::vector<double>& speeds, const std::vector<AtSpeed>
 
 // Error against speed; speeds that chatter stand out.
 std::string drawing_of(const std::vector<double>& speeds, const std::vector<AtSpeed>& rows) {
-  Chart chart{"Machining error against spindle speed", "rev/min", "um", {70, 40}, {870, 400}, {}};
+  Chart chart{"Machining error against spindle speed",
+              "spindle speed [rev/min]",
+              "um",
+              {20, 30},
+              {880, 420},
+              {}};
   Series stable{"error", "path", {}};
   std::vector<Series> chatter;
   bool was_stable = true;
@@ -85,7 +67,9 @@ std::string drawing_of(const std::vector<double>& speeds, const std::vector<AtSp
   }
   chart.series.push_back(std::move(stable));
   for (Series& run : chatter) {
-    if (run.points.size() == 1) run.points.push_back(run.points.front());
+    const double mark = 0.004 * (speeds.back() - speeds.front());  // a speed alone is seen too
+    run.points.insert(run.points.begin(), run.points.front() - Eigen::Vector2d(mark, 0));
+    run.points.push_back(run.points.back() + Eigen::Vector2d(mark, 0));
     chart.series.push_back(std::move(run));
   }
   Svg svg(900, 460, "Machining error against spindle speed");
@@ -119,6 +103,27 @@ Answer answer_of(const std::vector<double>& speeds, const std::vector<AtSpeed>& 
 
 }  // namespace
 
+std::vector<double> read_speeds(const Value& value) {
+  if (!value.json().is_object()) {
+    std::vector<double> speeds = value.numbers(speed_range);
+    if (speeds.empty() || speeds.size() > most_speeds)
+      value.refuse("1 to " + std::to_string(most_speeds) + " speeds");
+    return speeds;
+  }
+  Object range(value);
+  const double from = range.number("from", speed_range);
+  const double to = range.number("to", between(from, speed_range.max, speed_range.unit));
+  const double step = range.number("step", above(0, speed_range.max, speed_range.unit));
+  range.finish();
+  const double count = std::floor((to - from) / step + 1e-9) + 1;
+  if (!(count <= static_cast<double>(most_speeds)))
+    range.refuse("step",
+                 "so large that there are at most " + std::to_string(most_speeds) + " speeds");
+  std::vector<double> speeds;
+  for (int i = 0; i < static_cast<int>(count); ++i) speeds.push_back(from + i * step);
+  return speeds;
+}
+
 Answer predict_sweep(Object& job, const Request& request) {
   job.exclude("speeds_rpm", "speed_rpm");
   const PredictJob read = read_predict_job(job);
@@ -126,11 +131,9 @@ Answer predict_sweep(Object& job, const Request& request) {
   job.finish();
 
   std::vector<AtSpeed> rows(speeds.size());
-  std::size_t done = 0;
-  for (std::size_t i = 0; i < speeds.size(); ++i, ++done) {
-    request.progress.at(static_cast<double>(done) / static_cast<double>(speeds.size()), "speeds");
+  in_parallel(speeds.size(), request.progress, "speeds", [&](std::size_t i) {
     rows[i] = at_speed(read, speeds[i], {.report = {}, .stop = request.progress.stop});
-  }
+  });
   return answer_of(speeds, rows, request.format);
 }
 

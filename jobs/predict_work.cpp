@@ -258,6 +258,8 @@ Answer predict_work(Object& job, Object& along, WorkPath work, const ResolvedToo
                      .rpm = work.rpm};
   AlongJob read = read_along(job, source, request.definitions);
   job.finish();
+  if (read.correct && read.correct->by_borders)
+    refuse({.field = "/correct/aim", .value = "width", .limit = "\"surface\" but for a chamfer"});
 
   work.motion = path::linearised(work.motion, arc_tolerance);
   const Vector3d to_centre =

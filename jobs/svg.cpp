@@ -205,7 +205,7 @@ void draw(Svg& svg, const Chart& chart) {
   double legend = view.sheet_max.x();
   for (const Series& one : chart.series) {
     svg.polyline(view, one.points, one.style);
-    if (chart.series.size() < 2) continue;
+    if (chart.series.size() < 2 || one.name.empty()) continue;
     svg.text({legend, chart.sheet_min.y() + 14}, one.name, "small", Svg::Anchor::End);
     legend -= 8.0 * static_cast<double>(one.name.size()) + 40;
     svg.line({legend + 14, chart.sheet_min.y() + 10}, {legend + 34, chart.sheet_min.y() + 10},

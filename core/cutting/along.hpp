@@ -40,6 +40,7 @@ struct CorrectOptions {
   double relative = 0.05;    ///< ... or this part of the error before
   int max_shifts = 6;
   double largest_shift = 0.25;  ///< of the radius; beyond it the engagement is another one
+  bool by_borders = false;      ///< the mean error at Station::borders in place of that along n
 };
 
 /// What one station gives. Frame: work.

@@ -38,6 +38,15 @@ double limit_of(const CorrectOptions& limits, double original) {
   return std::max(limits.residual, limits.relative * std::abs(original));
 }
 
+// What a correction takes away: what is left of the error with the tool moved by s.
+double left_of(const Station& station, const StationError& now, double s, bool by_borders) {
+  if (!by_borders || station.borders.empty()) return *now.e - s;
+  double sum = 0;
+  for (std::size_t b = 0; b < station.borders.size(); ++b)
+    sum += *now.border[b] - s * station.n.dot(station.borders[b]);
+  return sum / static_cast<double>(station.borders.size());
+}
+
 [[noreturn]] void refuse(const Station& station, double radius, double original, double left,
                          double shift, double limit) {
   const auto um = [](double mm) { return text(std::round(mm * 1e6) / 1e3) + " um"; };
@@ -129,7 +138,8 @@ StationError Follower::corrected_at(const Station& station, const CorrectOptions
   StationError now = shifted(station, 0);
   if (!now.e) return now;
   const double radius = course_.cutter.r;
-  const double original = *now.e;
+  const double before = *now.e;
+  const double original = left_of(station, now, 0, limits.by_borders);
   const double limit = limit_of(limits, original);
   double s = 0, s_before = 0;
   double left = original, left_before = 0;
@@ -145,12 +155,12 @@ StationError Follower::corrected_at(const Station& station, const CorrectOptions
     s = next;
     now = shifted(station, s);
     if (!now.e) refuse(station, radius, original, left, s, limit);
-    left = *now.e - s;
+    left = left_of(station, now, s, limits.by_borders);
   }
   if (options_.uncertainty) now.spread = spread(*now.e);
-  now.before = original;
+  now.before = before;
   now.shift = s;
-  now.e = left;
+  *now.e -= s;
   for (std::size_t b = 0; b < now.border.size(); ++b) {
     if (now.border[b]) *now.border[b] -= s * station.n.dot(station.borders[b]);
   }

@@ -85,6 +85,24 @@ TEST(PredictChamfer, CorrectionLeavesLittleAndMovesTheProgram) {
   EXPECT_GT(moved, 6);
 }
 
+// Aimed at the width, the correction leaves less of its error than one of the surface does.
+TEST(PredictChamfer, CorrectionAimsAtTheWidth) {
+  const auto worst_width = [](const Json& correct) {
+    Json job = chamfer_job();
+    job["correct"] = correct;
+    const Json result = run(job);
+    EXPECT_EQ(result["status"], "ok") << result.dump(1);
+    double worst = 0;
+    for (const Json& width : result["corrected"]["width"])
+      worst = std::max(worst, std::abs(width.get<double>() - std::sqrt(2.0) * 0.2));
+    return worst;
+  };
+  const double by_surface = worst_width(true);
+  const double by_width = worst_width({{"aim", "width"}});
+  EXPECT_LT(by_width, by_surface);
+  EXPECT_LT(by_width, 0.003);
+}
+
 // The corrected program, predicted again, cuts what was wanted.
 TEST(PredictChamfer, WritesTheCorrectedProgram) {
   Json job = chamfer_job();

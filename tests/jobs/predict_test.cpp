@@ -117,6 +117,29 @@ TEST(PredictJob, SweepsTheSpeedAndFlagsChatter) {
   EXPECT_NE(drawn.text.find("<svg"), std::string::npos);
 }
 
+// Insperger's slot, flexible along the feed; |mu| as in tests/core/cutting/benchmark_test.cpp.
+TEST(PredictJob, DrawsTheLobes) {
+  Json job = Json::parse(R"({
+    "job": "predict", "stability": "none", "engaging": "frozen",
+    "case": {"tool": {"kind": "square", "r": 10, "z": 2, "nq": 1}, "N": 512, "feed_per_tooth": 1e-5,
+             "coef": {"Ktc": 600, "Krc": 200}, "engagement": {"normal": [-1, 0, 0], "a": 20, "ap": 1},
+             "modes_x": [], "modes_y": [[922, 0.011, 1340.049648]]},
+    "speeds_rpm": [5000, 10000], "depths": {"from": 0.1, "to": 1.5, "steps": 14}})");
+  const Json result = run(job);
+  ASSERT_EQ(result["status"], "ok") << result.dump();
+  EXPECT_EQ(result["depth_of"], "ap");
+  const double slow = result["depth_limit"][0].get<double>();
+  EXPECT_GT(slow, 0.3);                                  // |mu| = 0.91 there
+  EXPECT_LT(slow, 0.5);                                  // 1.07
+  EXPECT_LT(result["depth_limit"][1].get<double>(), 1);  // 1.23 at 1 mm
+  job["depths"] = {{"from", 0.05}, {"to", 0.1}, {"steps", 1}};
+  EXPECT_TRUE(run(job)["depth_limit"][0].is_null());
+  const Answer drawn = answer(job.dump(), "svg", NoDefinitions());
+  EXPECT_NE(drawn.text.find("Stability lobes"), std::string::npos);
+  job["depths"]["of"] = "c";
+  EXPECT_EQ(run(job)["error"]["field"], "/depths/of");
+}
+
 struct Refused {
   const char* name;
   const char* patch;  // JSON merge patch on the job

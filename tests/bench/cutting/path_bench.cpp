@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "core/cutting/along.hpp"
+#include "tests/bench/cutting/surface_run.hpp"
 
 namespace {
 
@@ -37,26 +38,27 @@ Compliance base_compliance() {
   return {mode, mode, Eigen::Matrix2d::Identity()};
 }
 
-// A station on a slope of this tilt, `pass` grooves beside it, down-milling.
+// A station on a slope of this tilt, `pass` grooves beside it; down-milling where the sense is 1.
 Station slope_station(double tilt, double feed, int pass, double sense) {
   constexpr double depth = 0.23, pick = 0.49, r = 6;
   Station station;
   station.centre = Vector3d::Zero();
   station.direction = Vector3d(0, sense, 0);
-  station.n = Vector3d(-sense * std::sin(tilt), 0, std::cos(tilt));
+  station.n = Vector3d(-std::sin(tilt), 0, std::cos(tilt));
   station.feed = feed;
   station.stock.faces = {HalfSpace{station.n, depth - r}};
-  const Vector3d down(-sense * std::cos(tilt), 0, -std::sin(tilt));
+  const Vector3d down(-std::cos(tilt), 0, -std::sin(tilt));
   for (int i = 1; i <= pass; ++i)
     station.stock.grooves.push_back({pick * i * down, station.direction, r});
   return station;
 }
 
-// A mould surface: passes of 40 stations there and back, its tilt going from 10 to 80 degrees.
+// A mould surface: passes of 40 stations there and back, down- and up-milling in turn; its tilt
+// goes from 10 to 80 degrees by up to 1.4 degrees a station.
 std::vector<Station> mould(int count) {
   std::vector<Station> out;
   for (int i = 0; i < count; ++i) {
-    const double wave = 0.5 + 0.5 * std::sin(2e-3 * i) * std::cos(7e-4 * i);
+    const double wave = 0.5 + 0.5 * std::sin(0.04 * i) * std::cos(7e-4 * i);
     const double sense = (i / 40) % 2 == 0 ? 1 : -1;
     out.push_back(slope_station((10 + 70 * wave) * radian, 0.2, 1, sense));
   }
@@ -131,6 +133,34 @@ void time_domain_station(benchmark::State& state) {
       benchmark::Counter(runs, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(time_domain_station)
+    ->ArgNames({"rpm"})
+    ->Arg(8000)
+    ->Arg(3000)
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
+
+// Every 400th station by a time domain that keeps the surface as a height map, 10 revolutions.
+void surface_station(benchmark::State& state) {
+  const double S = static_cast<double>(state.range(0)) / 60;
+  constexpr int revolutions = 10;
+  constexpr double cell = 0.01;  // mm
+  const Course course = base_course(1024);
+  const std::vector<Station> stations = mould(2000);
+  double runs = 0, away = 0, time = 0;
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < stations.size(); i += 400) {
+      const Cut cut = cut_at(course, stations[i]);
+      SurfaceRun run;
+      time += seconds([&] { run = surface_run(cut, base_compliance(), S, revolutions, cell); });
+      const TimeDomain history = time_domain(cut, base_compliance(), S, {});
+      if (run.e && history.e) away = std::max(away, std::abs(*run.e - *history.e));
+      ++runs;
+    }
+  }
+  state.counters["station_ms"] = 1e3 * time / runs;
+  state.counters["away_from_history_um"] = 1e3 * away;
+}
+BENCHMARK(surface_station)
     ->ArgNames({"rpm"})
     ->Arg(8000)
     ->Arg(3000)
