@@ -67,9 +67,12 @@ Solved solve_to_width(const ChamferJob& job, const Progress& progress) {
   if (!keeps_width(job)) return solved;
   constexpr int most_repeats = 3;
   constexpr double margin = 0.9;
+  constexpr double least_share =
+      1e-3;  // of the tolerance: what such chords miss, no finer ones mend
   const double limit = width_limit(job);
   for (int i = 0; i < most_repeats && width_error(solved) > limit; ++i) {
     tolerance *= margin * limit / width_error(solved);
+    if (tolerance < least_share * job.job.tolerance) break;
     solved = solve(job, tolerance, progress);
   }
   return solved;
