@@ -20,6 +20,11 @@ std::string_view opposite(std::string_view op) {
 
 }  // namespace
 
+// LinuxCNC wants an expression in brackets, also alone.
+std::string MacroText::value(std::string_view expression) const {
+  return is_fanuc() ? std::string(expression) : "[" + std::string(expression) + "]";
+}
+
 void MacroText::line(std::string_view text) {
   text_.append(text).append("\n");
 }
@@ -29,7 +34,7 @@ void MacroText::comment(std::string_view text) {
 }
 
 void MacroText::assign(int variable, std::string_view expression, std::string_view comment) {
-  text_.append(numbered("#", variable)).append("=").append(expression);
+  text_.append(numbered("#", variable)).append("=").append(value(expression));
   if (!comment.empty()) text_.append(is_fanuc() ? "(" : " (").append(comment).append(")");
   text_.append("\n");
 }
@@ -78,7 +83,7 @@ void MacroText::if_then(std::string_view condition, int variable, std::string_vi
   }
   const std::string label = numbered("o", ++label_);
   text_.append(label).append(" if [").append(condition).append("]\n");
-  text_.append(numbered("#", variable)).append("=").append(expression).append("\n");
+  text_.append(numbered("#", variable)).append("=").append(value(expression)).append("\n");
   text_.append(label).append(" endif\n");
 }
 

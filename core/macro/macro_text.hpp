@@ -32,6 +32,8 @@ public:
   const std::string& text() const { return text_; }
 
 private:
+  std::string value(std::string_view expression) const;
+
   ProgramDialect dialect_;
   std::string text_;
   int label_ = 100;            ///< last used N or o number
