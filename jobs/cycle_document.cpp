@@ -175,7 +175,11 @@ Json cycle_document(const Cycle& cycle, const CycleResult& result) {
   }
   if (cycle.family == Family::Taper) {
     const bool is_circle_pass = cycle.method == 1 && cycle.edge != EdgeShape::Straight;
-    document[is_circle_pass ? "cusp_leading_order_at_lower_edge" : "cusp_normal"] = result.cusp;
+    if (is_circle_pass) {
+      document["cusp_leading_order_at_lower_edge"] = macro::lower_edge_cusp(cycle);
+    } else {
+      document["cusp_normal"] = result.cusp;
+    }
     if (cycle.method == 1 && cycle.edge == EdgeShape::Straight) {
       add_triangle(cycle, result, document);
     }

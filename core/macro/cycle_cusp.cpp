@@ -36,19 +36,22 @@ double steepest(const Cycle& cycle) {
   }
 }
 
-// (p^2/8)(1/rho +- sin q/rc), rho = r + a/sin q: + outside, - inside; at the lower edge, where the
-// contact radius rc is R0.
-double cusp_on_circle(const Cycle& cycle, double p) {
-  const double q = radians(cycle.angle);
+// (p^2/8)(1/rho +- sin q/rc), rho = r + a/sin q: + outside, - inside; p is the arc between passes
+// at the contact radius rc.
+double cusp_on_circle(const Cycle& cycle, double step, double rc) {
+  const double q = radians(cycle.angle), p = rc * radians(step);
   const double rho = cycle.r + core_radius(cycle) / std::sin(q);
-  const double curvature = std::sin(q) / cycle.R0;
+  const double curvature = rc > 0 ? std::sin(q) / rc : 0;
   return p * p / 8 * (1 / rho + (cycle.side == WallSide::Outside ? curvature : -curvature));
 }
 
+// On a circle the passes diverge: the worst place is the edge of the slope with the larger radius.
 double cusp_of_passes(const Cycle& cycle, double step) {
-  const double a = core_radius(cycle);
-  if (cycle.edge != EdgeShape::Straight) return cusp_on_circle(cycle, cycle.R0 * radians(step));
-  return cusp_across(a, cycle.r, steepest(cycle), step);
+  if (cycle.edge != EdgeShape::Straight) {
+    return std::max(cusp_on_circle(cycle, step, cycle.R0),
+                    cusp_on_circle(cycle, step, radius_at(cycle, cycle.width)));
+  }
+  return cusp_across(core_radius(cycle), cycle.r, steepest(cycle), step);
 }
 
 double cusp_of_round(const Cycle& cycle, double step) {
@@ -114,14 +117,25 @@ double cusp_slope(double r, double q, double ds) {
   return offset + meet * tangent;
 }
 
+// The worst step has its middle at 45 degrees. While the peak is on both corner arcs, asin(half/r)
+// <= 45 degrees, half = (R +- r) sin(dq/2); beyond, the flat bottom of the upper tool meets the
+// flank of the lower one, at S = sin(45 +- dq/2): always so for a flat tool.
 double cusp_convex(double R, double r, double dq) {
   const double half = (R + r) * std::sin(dq / 2);
-  return (R + r) * std::cos(dq / 2) - root(r * r - half * half) - R;
+  if (half <= r / std::numbers::sqrt2) {
+    return (R + r) * std::cos(dq / 2) - root(r * r - half * half) - R;
+  }
+  const double S = std::sin(std::min(pi / 2, pi / 4 + dq / 2));
+  return std::numbers::sqrt2 * ((R + r) * S - r) - R;
 }
 
 double cusp_concave(double R, double r, double dq) {
   const double half = (R - r) * std::sin(dq / 2);
-  return R - (R - r) * std::cos(dq / 2) - root(r * r - half * half);
+  if (half <= r / std::numbers::sqrt2) {
+    return R - (R - r) * std::cos(dq / 2) - root(r * r - half * half);
+  }
+  const double S = std::sin(std::max(0.0, pi / 4 - dq / 2));
+  return R - std::numbers::sqrt2 * ((R - r) * S + r);
 }
 
 double pass_step(const Cycle& cycle) {
@@ -129,6 +143,10 @@ double pass_step(const Cycle& cycle) {
   if (cycle.edge != EdgeShape::Straight && cycle.angle_step) return *cycle.angle_step;
   const double most = cycle.edge == EdgeShape::Straight ? cycle.D : 30;
   return where([&](double step) { return cusp_of_passes(cycle, step); }, cycle.cusp, 0, most);
+}
+
+double lower_edge_cusp(const Cycle& cycle) {
+  return cusp_on_circle(cycle, pass_step(cycle), cycle.R0);
 }
 
 double slope_step(const Cycle& cycle) {

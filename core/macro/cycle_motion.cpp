@@ -17,6 +17,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double no_move = 1e-9;  // [mm]
+constexpr double smallest_circle =
+    0.0005;  // [mm] half an increment: below, there is none to program
 
 /// Moves in section coordinates at a place along the edge.
 class SectionMover {
@@ -242,6 +244,10 @@ void helical_corner(const Cycle& cycle, SectionMover& mover) {
       is_hole ? std::max(-cycle.D / 2 - cycle.y_clear, -cycle.R0) : -cycle.D / 2 - cycle.y_clear;
   mover.rapid(cycle.angle_start, {cycle.R - a, h});
   mover.line({cycle.R - a, 0}, cycle.feed);
+  // The first turn leaves q = 0: a circle there makes the top land tangent all round.
+  if (radius_at(cycle, cycle.R - a) > smallest_circle) {
+    mover.circle(mover.along(), 0, cycle.counter_clockwise);
+  }
   for (const HelixPoint& point : helix_path(cycle)) {
     const double q = radians(point.q);
     const double R = cycle.R, r = cycle.r;

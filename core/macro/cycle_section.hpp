@@ -54,6 +54,8 @@ double radius_at(const Cycle& cycle, double y);
 
 /// Residual height between passes, normal to the surface (design section 1.4).
 double cusp_height(const Cycle& cycle);
+/// Taper circle (1): at the lower edge alone, leading order.
+double lower_edge_cusp(const Cycle& cycle);
 /// Method 1 between passes p apart at slope q [rad]; straight edges.
 double cusp_across(double a, double r, double q, double p);
 /// Method 2 along a slope by ds; on a convex and a concave round by dq [rad].

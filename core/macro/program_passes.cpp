@@ -142,6 +142,10 @@ void write_helix(const Cycle& cycle, MacroText& text) {
   } else {
     write_rapid_in(circle, text, "[#18-#28]");
     text.line("G01 Z0 F#9");
+    text.assign(33, "#19-#20*[#18-#28]", "RADIUS OF THE FIRST CIRCLE");
+    text.begin_if("#33", "GT", "0.0005");
+    text.line(arc + " I[-#33*COS[#2]] J[-#33*SIN[#2]]");
+    text.end_if();
     text.assign(12, "90/#17*#23", "SEGMENTS");
     text.assign(31, "FUP[#12-0.000001]");
     text.assign(30, "0");
