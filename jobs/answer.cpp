@@ -21,7 +21,8 @@ struct Kind {
 constexpr std::array<std::string_view, 4> predict_formats{"json", "csv", "svg", "nc"};
 constexpr std::array<std::string_view, 1> json_only{"json"};
 constexpr std::array<std::string_view, 5> units_formats{"json", "text", "svg", "html", "nc"};
-constexpr std::array<std::string_view, 6> chamfer_formats{"json", "nc", "cl", "csv", "svg", "html"};
+constexpr std::array<std::string_view, 7> chamfer_formats{"json", "nc",   "cl",   "csv",
+                                                          "svg",  "html", "macro"};
 constexpr std::array<std::string_view, 2> expand_formats{"json", "nc"};
 constexpr std::array<std::string_view, 4> cycle_formats{"json", "nc", "csv", "svg"};
 constexpr std::array<std::string_view, 6> macro_formats{"json", "nc",    "csv",

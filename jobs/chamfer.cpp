@@ -4,6 +4,7 @@
 
 #include "core/nc/cl.hpp"
 #include "jobs/chamfer_job.hpp"
+#include "jobs/chamfer_macro.hpp"
 #include "jobs/chamfer_page.hpp"
 #include "jobs/chamfer_program.hpp"
 #include "jobs/check.hpp"
@@ -157,6 +158,7 @@ std::string text_of(const ChamferJob& job, const Solved& solved, const nlohmann:
   if (format == "nc") return nc::write(solved.program);
   if (format == "cl") return nc::write_cl(solved.program);
   if (format == "csv") return nc::write_csv(solved.rounded);
+  if (format == "macro") return chamfer_macro(job);
   if (format == "svg") return chamfer_drawing(job.job, solved.subject.edge, solved.result);
   if (format == "html")
     return chamfer_page(job, solved.result, solved.rounded, solved.subject, document);
@@ -166,7 +168,8 @@ std::string text_of(const ChamferJob& job, const Solved& solved, const nlohmann:
 }  // namespace
 
 Answer chamfer(const Request& request) {
-  const ChamferJob job = read_chamfer_job(Value(request.document), request.definitions);
+  ChamferJob job = read_chamfer_job(Value(request.document), request.definitions);
+  if (request.format == "macro") job.job.method = chamfer::Method::Section;  // all it can compute
   chamfer::validate(job.job);
   const Solved solved = solve_to_width(job, request.progress);
   refuse_failures(job, solved);

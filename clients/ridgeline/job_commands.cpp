@@ -126,9 +126,10 @@ void add_job_commands(CLI::App& app, Selected& selected) {
       app, selected,
       {"chamfer",
        "Compute the path that chamfers the edge of a hole",
-       {"json", "nc", "cl", "csv", "svg", "html"},
+       {"json", "nc", "cl", "csv", "svg", "html", "macro"},
        "Formats: json (path, report), nc (program for the control that the job names), cl (APT CL\n"
-       "data), csv (one line a point), svg (drawing), html (viewer for a browser).\n"
+       "data), csv (one line a point), svg (drawing), html (viewer for a browser), macro (Custom\n"
+       "Macro B that computes the path on the control).\n"
        "Example: ridgeline chamfer job.json --format nc -o O9101.nc"});
   add_verify(app, selected);
   add_expand(app, selected);
