@@ -119,8 +119,12 @@ void draw_view(Svg& svg, const Curves& curves, int i, int j, double left, double
   if (!(bounds.min.x() <= bounds.max.x())) return;
   const Vector2d margin = Vector2d::Constant(0.5);
   const View view{bounds.min - margin, bounds.max + margin, {left, 50}, {right, 560}};
-  for (const auto& curve : curves.rapids) svg.polyline(view, flat(curve), "hidden");
-  for (const auto& curve : curves.cuts) svg.polyline(view, flat(curve), "path");
+  for (const auto& curve : curves.rapids) {
+    if (curve.size() > 1) svg.polyline(view, flat(curve), "hidden");
+  }
+  for (const auto& curve : curves.cuts) {
+    if (curve.size() > 1) svg.polyline(view, flat(curve), "path");
+  }
 }
 
 }  // namespace
@@ -137,10 +141,16 @@ Array macro_moves_array(std::string pointer, const macro::Result& result,
 std::string macro_drawing(const macro::Result& result, std::string_view title) {
   Svg svg(1200, 600, title);
   const Curves curves = curves_of(result);
-  draw_view(svg, curves, 0, 1, 30, 590);
-  draw_view(svg, curves, 0, 2, 620, 1180);
-  svg.text({30, 30}, "X Y");
-  svg.text({620, 30}, "X Z");
+  struct Side {
+    int right, up;
+    const char* name;
+    double left;
+  };
+  constexpr double width = 370;
+  for (const Side& side : {Side{0, 1, "X Y", 20}, Side{0, 2, "X Z", 415}, Side{1, 2, "Y Z", 810}}) {
+    draw_view(svg, curves, side.right, side.up, side.left, side.left + width);
+    svg.text({side.left, 30}, side.name);
+  }
   return std::move(svg).finish();
 }
 
