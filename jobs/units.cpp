@@ -7,6 +7,7 @@
 #include "jobs/units_drawing.hpp"
 #include "jobs/units_edit.hpp"
 #include "jobs/units_nc.hpp"
+#include "jobs/units_product.hpp"
 #include "jobs/units_program.hpp"
 #include "jobs/units_shape.hpp"
 
@@ -124,6 +125,9 @@ Answer holes_of(Object& job, const Request& request) {
   try {
     const Part part = read_part(job, request);
     document = hole_edges(part, name, wish);
+    document["part"] = {
+        {"kind", "part"}, {"name", name}, {"product", product_document(part.product)}};
+    if (!part.placement.is_null()) document["part"]["placement"] = part.placement;
   } catch (const Error& error) {
     if (error.code() != ErrorCode::NotTurned || !step) throw;
     document = block_edges(mouths, name, wish);

@@ -139,11 +139,12 @@ void draw_legend(Svg& svg, const Program& program) {
 
 std::string volume_line(const Program& program) {
   const units::Volumes& v = program.volumes;
+  const auto tidy = [](double x) { return std::abs(x) < 5e-4 ? 0 : x; };  // never -0.000
   return fmt::format(
       "stock {:.3f}  product {:.3f}  turned {:.3f}  units {:.3f}  overlap {:.3f} declared, {:.3f} "
       "undeclared  left {:.3f}  unexplained {:.3f} mm3",
-      v.stock, v.product, v.turned, v.units, v.overlap_declared, v.overlap_undeclared, v.left,
-      v.unexplained);
+      v.stock, v.product, v.turned, v.units, tidy(v.overlap_declared), tidy(v.overlap_undeclared),
+      tidy(v.left), tidy(v.unexplained));
 }
 
 std::string title_of(const Program& program) {

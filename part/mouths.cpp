@@ -72,7 +72,7 @@ std::vector<Rim> rims_of(const Model& model, const std::vector<int>& classes, in
     const int other = a == wall ? b : a;
     const Surface& surface = model.faces[index(other)].surface;
     const Surface& base = model.faces[index(wall)].surface;
-    if (is_across(surface, base) || is_coaxial(surface, base)) continue;
+    if (is_coaxial(surface, base)) continue;
     rims.push_back({static_cast<int>(e), other});
   }
   return rims;
@@ -175,8 +175,8 @@ void measure_corners(Mouth& mouth, const Neighbours& corners, const Vector3d& mi
     mouth.length = 2 * far.norm() + 2 * r;
     mouth.width = 2 * r;
   } else {
-    std::ranges::sort(from_centre, {},
-                      [&](const Vector3d& v) { return (v - from_centre[0]).norm(); });
+    const Vector3d first = from_centre.front();
+    std::ranges::sort(from_centre, {}, [&first](const Vector3d& v) { return (v - first).norm(); });
     const Vector3d side_a = from_centre[1] - from_centre[0];
     const Vector3d side_b = from_centre[2] - from_centre[0];
     far = side_a.norm() > side_b.norm() ? side_a : side_b;
@@ -259,7 +259,11 @@ std::vector<Mouth> mouths_of(const Model& model) {
     const int wall = static_cast<int>(i);
     if (classes[i] != wall || model.faces[i].surface.kind != SurfaceKind::Cylinder) continue;
     for (const std::vector<Rim>& chain : chains_of(model, rims_of(model, classes, wall))) {
-      if (!is_seen_from_hole(model, wall, chain)) mouths.push_back(classified(model, wall, chain));
+      const bool is_end = std::ranges::all_of(chain, [&](const Rim& rim) {
+        return is_across(model.faces[index(rim.neighbour)].surface, model.faces[i].surface);
+      });
+      if (!is_end && !is_seen_from_hole(model, wall, chain))
+        mouths.push_back(classified(model, wall, chain));
     }
   }
   return mouths;

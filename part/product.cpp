@@ -32,7 +32,13 @@ struct Candidate {
 };
 
 std::optional<Axis> axis_of(const Model& model, const std::optional<GivenAxis>& given) {
-  if (!given) return turning_axis(model);
+  if (!given) {
+    if (const std::optional<Axis> found = turning_axis(model)) return found;
+    for (const Face& face : model.faces)  // a ball turns about any axis through its middle
+      if (face.surface.kind == SurfaceKind::Sphere)
+        return Axis{face.surface.origin, Eigen::Vector3d::UnitZ()};
+    return std::nullopt;
+  }
   if (given->point) return Axis{*given->point, given->direction};
   const std::optional<Axis> found = turning_axis(model);
   if (found && found->direction.cross(given->direction).norm() < same_direction)

@@ -40,7 +40,7 @@ void add_file(CLI::App& command, Arguments& arguments, const char* what) {
 }
 
 void add_key(CLI::App& command, Arguments& arguments) {
-  command.add_option("KIND", arguments.kind, "workpiece, tool or material")->required();
+  command.add_option("KIND", arguments.kind, "workpiece, tool, material or part")->required();
   command.add_option("NAME", arguments.name, "Name, or number of a tool")->required();
 }
 
@@ -107,7 +107,7 @@ void add_library_commands(CLI::App& app, Selected& selected) {
   add_key(get_command, *arguments);
   get_command.add_option("--revision", arguments->revision, "That revision instead of the latest");
   const auto optional_kind = [&](CLI::App& command) {
-    command.add_option("KIND", arguments->kind, "Only workpiece, tool or material");
+    command.add_option("KIND", arguments->kind, "Only workpiece, tool, material or part");
   };
   optional_kind(add(*library, selected, arguments, "list", "List names and revisions",
                     [](const Session& s, const Arguments& a) { return with_kind(s, "list", a); }));

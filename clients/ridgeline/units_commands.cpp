@@ -210,9 +210,10 @@ Outcome import_part(const Session& session, const std::string& path) {
   const Session local(bare, session.interrupt());
   const jobs::Answer found = (bare.local ? local : session).ask(job, "json");
   if (jobs::is_error(found)) return outcome_of(found, "json");
-  const Json request = {{"job", "library"},
-                        {"operation", "import"},
-                        {"definitions", found.document.at("workpieces")}};
+  Json definitions = found.document.at("workpieces");
+  if (found.document.contains("part")) definitions.push_back(found.document.at("part"));
+  const Json request = {
+      {"job", "library"}, {"operation", "import"}, {"definitions", std::move(definitions)}};
   jobs::Answer stored = session.ask(request.dump(), "json");
   if (jobs::is_error(stored)) return outcome_of(stored, "json");
   stored.document["edges"] = found.document.at("edges");

@@ -287,6 +287,54 @@ void turn_face(const Unit& unit, TurningPaths& paths) {
   }
 }
 
+/// How far a tool from r to r + width may plunge before it meets the product.
+double floor_at(const Region& shadow, const Region& groove, double r, double width, int way) {
+  const Box g = box(groove);
+  const Box s = box(intersection_of(shadow, rectangle(r, r + width, g.z0, g.z1)));
+  if (s.r1 <= s.r0) return way > 0 ? g.z1 : g.z0;
+  return way > 0 ? s.z0 : s.z1;
+}
+
+/// Plunges side by side, with pecks of the depth of cut.
+void turn_groove(const Program& program, const Unit& unit, TurningPaths& paths) {
+  const Box b = box(unit.region);
+  const int way = unit.process == 1 ? 1 : -1;
+  for (std::size_t i = 0; i < unit.tools.size(); ++i) {
+    check_row(unit, i);
+    const ToolRow& row = unit.tools[i];
+    const double w = row.nominal_diameter;
+    if (!(w >= 0.1 && w <= b.r1 - b.r0 + merge_tolerance)) {
+      paths.notes.push_back("unit " + std::to_string(unit.number) + ": its tool is " +
+                            std::to_string(w) + " mm wide, the groove " +
+                            std::to_string(b.r1 - b.r0) + " mm: no path");
+      return;
+    }
+    const double open = way > 0 ? b.z0 : b.z1;
+    const double safe = open - way * turning_clearance;
+    const int n = static_cast<int>(std::ceil((b.r1 - b.r0 - w) / (0.8 * w) - 1e-9));
+    Way path({b.r0, safe});
+    for (int k = 0; k <= n; ++k) {
+      const double r = n == 0 ? b.r0 : b.r0 + (b.r1 - b.r0 - w) * k / n;
+      const double floor = floor_at(program.product.shadow, unit.region, r, w, way);
+      path.rapid({r, safe});
+      for (double z = open; way * (floor - z) > merge_tolerance;) {
+        z += way * row.depth_of_cut;
+        if (way * (floor - z) < 0) z = floor;
+        path.feed({r, z});
+        if (z != floor) path.rapid({r, z - way * std::min(0.2, row.depth_of_cut)});
+      }
+      path.rapid({r, safe});
+    }
+    TurningStep step;
+    step.tool = row;
+    step.tool.nose_radius = 0;  // its corners are in the width
+    step.width = w;
+    step.approach = way > 0 ? Approach::Front : Approach::Back;
+    step.moves = path.take();
+    paths.steps.push_back(std::move(step));
+  }
+}
+
 void drill_on_axis(const Unit& unit, TurningPaths& paths) {
   const Hole& hole = *unit.hole;
   const double way = hole.direction.z() > 0 ? 1 : -1;
@@ -318,10 +366,7 @@ TurningPaths turning_paths(const Program& program, const Unit& unit) {
     case UnitKind::Hole:
       if (is_turned(unit)) drill_on_axis(unit, paths);
       break;
-    case UnitKind::Groove:
-      paths.notes.push_back("unit " + std::to_string(unit.number) +
-                            ": no path is written for a groove inside a face");
-      break;
+    case UnitKind::Groove: turn_groove(program, unit, paths); break;
     case UnitKind::FaceMill:
     case UnitKind::Unexplained: break;
   }

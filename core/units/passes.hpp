@@ -23,6 +23,7 @@ struct TurningStep {
   Approach approach = Approach::Outer;
   double allowance = 0;            ///< left on the product by this step [mm]
   std::vector<TurningMove> moves;  ///< turning
+  double width = 0;                ///< of a grooving tool; its moves are of the corner at least r
   double drill_diameter = 0;       ///< drilling on the axis, along Z
   double drill_from = 0;           ///< Z where it enters
   double drill_to = 0;             ///< Z of its point

@@ -45,12 +45,17 @@ Contour hull(std::vector<Point> points) {
 struct Tool {
   double R = 0;
   double shank = 0;
+  double width = 0;  ///< of a grooving tool, from its corner outwards; 0: a nose
   Approach approach = Approach::Outer;
 };
 
 std::vector<Point> shank_at(const Tool& tool, const Point& c) {
   const double R = std::max(tool.R, 1e-3);
   const double h = tool.shank;
+  if (tool.width > 0) {
+    const double back = tool.approach == Approach::Front ? c.z - h : c.z + h;
+    return {{c.r, c.z}, {c.r + tool.width, c.z}, {c.r, back}, {c.r + tool.width, back}};
+  }
   switch (tool.approach) {
     case Approach::Outer:
       return {{c.r, c.z - R}, {c.r, c.z + R}, {c.r + h, c.z - R}, {c.r + h, c.z + R}};
@@ -132,7 +137,7 @@ Region drilled(const TurningStep& step) {
 
 Region swept(const TurningStep& step) {
   if (step.kind == TurningStep::Kind::Drill) return drilled(step);
-  const Tool tool{step.tool.nose_radius, step.tool.depth_of_cut, step.approach};
+  const Tool tool{step.tool.nose_radius, step.tool.depth_of_cut, step.width, step.approach};
   std::vector<Region> parts;
   for (const TurningMove& move : step.moves)
     if (move.kind == TurningMove::Kind::Feed) add(parts, tool, move.path);

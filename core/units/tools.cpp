@@ -1,5 +1,6 @@
 #include "core/units/tools.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "core/units/figure.hpp"
@@ -94,9 +95,35 @@ std::vector<ToolRow> drilling(const Hole& hole) {
   return rows;
 }
 
+/// Twice the area of an outline over its length: about the width of what is long and narrow, half
+/// of that of a square.
+double narrowness(const MilledFace& face) {
+  std::vector<Eigen::Vector3d> points;
+  for (const FaceEdge& edge : face.outline.front()) {
+    points.push_back(edge.start);
+    if (!edge.is_arc) continue;
+    const Eigen::Vector3d out = (edge.start + edge.end) / 2 - edge.centre;
+    if (out.norm() > 1e-9)
+      points.push_back(edge.centre + (edge.start - edge.centre).norm() * out.normalized());
+  }
+  Eigen::Vector3d twice_area = Eigen::Vector3d::Zero();
+  double length = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d a = points[i] - face.point;
+    const Eigen::Vector3d b = points[(i + 1) % points.size()] - face.point;
+    twice_area += a.cross(b);
+    length += (b - a).norm();
+  }
+  return length > 0 ? 2 * (twice_area.norm() / 2) / length : 0;
+}
+
 /// The largest end mill of the usual steps that enters the plan.
 ToolRow milling(const MilledFace& face) {
   double limit = 20;
+  if (face.form == "pocket" && face.width <= 0 && !face.outline.empty()) {
+    const double narrow = narrowness(face);
+    if (narrow > 0) limit = std::min(limit, narrow);
+  }
   if (face.corner_radius > 0) limit = std::min(limit, 2 * face.corner_radius);
   if (face.width > 0) limit = std::min(limit, face.width);
   double diameter = limit;

@@ -54,7 +54,15 @@ Volumes measured_volumes(const Program& program) {
   v.overlap_undeclared = in_cores - volume(union_of(cores));
   v.overlap_declared = in_regions - volume(covered) - v.overlap_undeclared;
   v.left = volume(difference_of(T, covered));
-  for (const Removed& one : program.removed) v.left += left_of_feature(program, one);
+  for (std::size_t i = 0; i < program.removed.size(); ++i) {
+    const Removed& one = program.removed[i];
+    const auto is_same = [&](const Removed& other) {  // its parts may be taken out one by one
+      return other.kind == one.kind && other.feature == one.feature;
+    };
+    if (std::none_of(program.removed.begin(),
+                     program.removed.begin() + static_cast<std::ptrdiff_t>(i), is_same))
+      v.left += left_of_feature(program, one);
+  }
   return v;
 }
 

@@ -63,7 +63,11 @@ TEST(UnitsCommand, HoleEdgesOfAPartBecomeWorkpiecesAndJobs) {
   const std::string part = "tests/parts/own_cross_tube.step";
   const Finished imported = ridgeline({"library", "import", part, "--local", "--library", library});
   ASSERT_EQ(imported.status, 0) << imported.out << imported.err;
-  EXPECT_EQ(imported.json().at("new"), 1);
+  EXPECT_EQ(imported.json().at("new"), 2);  // the tube and the part
+  const Finished by_name = ridgeline({"units", "plan", "-", "--local", "--library", library},
+                                     R"({"job": "units", "product": "own_cross_tube"})");
+  EXPECT_EQ(by_name.status, 0) << by_name.out;
+  EXPECT_EQ(by_name.json().at("units").size(), 15u);
   ridgeline({"library", "put", "-", "--local", "--library", library},
             R"({"kind": "tool", "number": 12, "name": "lollipop 4", "shape": "lollipop",
                 "radius": 2, "neck_radius": 1, "neck_length": 60, "shank_radius": 1.5})");

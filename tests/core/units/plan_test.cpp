@@ -97,6 +97,24 @@ TEST(Edit, LongerBoreOfProcess1ReproducesFigure40) {
   EXPECT_NEAR(v.overlap_declared, std::numbers::pi * (R * R - 3600) * 10, 1e-6);
 }
 
+// Found by random edits: a hole that was split in two and taken out half by half is left once.
+TEST(Edit, AHoleTakenOutInTwoPartsIsLeftOnce) {
+  Program program = plan(flanged_job());
+  Unit hole = program.units[3];
+  hole.hole->depth = 6;
+  program = edit(program, std::vector<Edit>{ChangeUnit{4, hole}});
+  ASSERT_EQ(program.units.size(), 25u);
+  for (int part = 0; part < 2; ++part) {
+    const auto found = std::find_if(program.units.begin(), program.units.end(), [](const Unit& u) {
+      return u.kind == UnitKind::Hole && u.feature == 0u;
+    });
+    ASSERT_NE(found, program.units.end());
+    program = edit(program, std::vector<Edit>{RemoveUnit{found->number}});
+  }
+  EXPECT_EQ(program.units.size(), 23u);
+  EXPECT_NEAR(program.volumes.left, program.product.holes[0].volume, 1e-6);
+}
+
 TEST(Plan, StockThatDoesNotHoldTheProductIsRefused) {
   PlanJob job = flanged_job();
   job.stock = StockCylinder{119, 130};

@@ -1,0 +1,121 @@
+// Files that Open CASCADE writes here: units, several solids, free-form surfaces.
+
+#include <gtest/gtest.h>
+#include <BRepBuilderAPI_NurbsConvert.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRep_Builder.hxx>
+#include <Interface_Static.hxx>
+#include <STEPControl_Writer.hxx>
+#include <TopoDS_Compound.hxx>
+#include <gp_Ax2.hxx>
+#include <numbers>
+
+#include "core/base/error.hpp"
+#include "part/product.hpp"
+#include "part/step.hpp"
+#include "tests/part/parts.hpp"
+
+namespace ridgeline::part {
+namespace {
+
+std::string step_of(const std::vector<TopoDS_Shape>& shapes, const char* unit = "MM") {
+  prepare();
+  Interface_Static::SetCVal("write.step.unit", unit);
+  TopoDS_Compound compound;
+  BRep_Builder builder;
+  builder.MakeCompound(compound);
+  for (const TopoDS_Shape& shape : shapes) builder.Add(compound, shape);
+  STEPControl_Writer writer;
+  writer.Transfer(shapes.size() == 1 ? shapes.front() : TopoDS_Shape(compound), STEPControl_AsIs);
+  Interface_Static::SetCVal("write.step.unit", "MM");
+  std::string folder = (std::filesystem::temp_directory_path() / "part-XXXXXX").string();
+  if (mkdtemp(folder.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  const std::filesystem::path file = std::filesystem::path(folder) / "part.step";
+  writer.Write(file.c_str());
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  std::filesystem::remove_all(folder);
+  return text.str();
+}
+
+TopoDS_Shape cylinder(double r, double l, double x = 0) {
+  return BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(x, 0, 0), gp_Dir(0, 0, 1)), r, l).Shape();
+}
+
+ErrorCode code_of(const std::string& step) {
+  try {
+    read_product(step);
+  } catch (const Error& error) {
+    return error.code();
+  }
+  ADD_FAILURE() << "nothing was refused";
+  return ErrorCode::Internal;
+}
+
+TEST(MadeParts, InchesAreMillimetresInside) {
+  const units::Product product = read_product(step_of({cylinder(20, 50)}, "INCH")).product;
+  const units::Box box = units::box(product.shadow);
+  EXPECT_NEAR(box.r1, 20, 1e-6);
+  EXPECT_NEAR(box.z1, 50, 1e-6);
+  EXPECT_NEAR(product.volume, std::numbers::pi * 400 * 50, 1e-3);
+}
+
+TEST(MadeParts, OfSeveralSolidsTheOnlyTurnedOneIsTaken) {
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(gp_Pnt(100, 0, 0), 10, 20, 30).Shape();
+  const units::Product product = read_product(step_of({cylinder(20, 50), box})).product;
+  EXPECT_NEAR(units::box(product.shadow).r1, 20, 1e-6);
+  EXPECT_EQ(product.notes.size(), 1u);
+}
+
+TEST(MadeParts, TwoTurnedSolidsAreTooMany) {
+  EXPECT_EQ(code_of(step_of({cylinder(20, 50), cylinder(10, 30, 100)})), ErrorCode::SeveralSolids);
+}
+
+TEST(MadeParts, ABoxIsNotTurned) {
+  EXPECT_EQ(code_of(step_of({BRepPrimAPI_MakeBox(10, 20, 30).Shape()})), ErrorCode::NotTurned);
+}
+
+TEST(MadeParts, SizesThatNoMachineTakesAreRefused) {
+  EXPECT_EQ(code_of(step_of({cylinder(3e4, 5e4)})), ErrorCode::AbsurdSize);
+  EXPECT_EQ(code_of(step_of({cylinder(0.01, 0.02)})), ErrorCode::AbsurdSize);
+}
+
+// No face of it tells an axis: any through its middle turns it.
+TEST(MadeParts, ABallIsTurnedAboutItsMiddle) {
+  const units::Product product =
+      read_product(step_of({BRepPrimAPI_MakeSphere(20).Shape()})).product;
+  const double volume = std::numbers::pi * 8000 * 4 / 3;
+  EXPECT_NEAR(product.volume, volume, 1e-6 * volume);
+  EXPECT_NEAR(units::volume(product.shadow), volume, 1e-6 * volume);
+}
+
+struct FreeForm {
+  const char* name;
+  TopoDS_Shape shape;
+  double volume;
+};
+void PrintTo(const FreeForm& part, std::ostream* out) {
+  *out << part.name;
+}
+class FreeFormParts : public testing::TestWithParam<FreeForm> {};
+
+// The same solid with every surface a B-spline has the same half section.
+TEST_P(FreeFormParts, AreRecognisedAsWhatTheyAre) {
+  const TopoDS_Shape spline = BRepBuilderAPI_NurbsConvert(GetParam().shape).Shape();
+  const units::Product product = read_product(step_of({spline})).product;
+  EXPECT_NEAR(product.volume, GetParam().volume, 1e-6 * GetParam().volume);
+  EXPECT_NEAR(units::volume(product.shadow), GetParam().volume, 1e-6 * GetParam().volume);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, FreeFormParts,
+                         testing::Values(FreeForm{"cylinder", cylinder(20, 50),
+                                                  std::numbers::pi * 400 * 50},
+                                         FreeForm{"cone", BRepPrimAPI_MakeCone(20, 10, 50).Shape(),
+                                                  std::numbers::pi * 50 * (400 + 200 + 100) / 3}));
+
+}  // namespace
+}  // namespace ridgeline::part
