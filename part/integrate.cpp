@@ -217,11 +217,36 @@ struct Reach {
   double high = -HUGE_VAL;
 };
 
+/// Where a surface is not smooth: an integrand is not, either.
+struct Knots {
+  std::vector<double> u;
+  std::vector<double> v;
+};
+
+/// Parameters of a line between first and last where it meets a knot of the surface.
+TColStd_Array1OfReal crossings(const gp_Lin2d& line, double first, double last,
+                               const Knots& knots) {
+  std::vector<double> found{first};
+  const auto add = [&](const std::vector<double>& values, double at, double along) {
+    if (std::abs(along) < 1e-14) return;
+    for (const double value : values) {
+      const double t = (value - at) / along;
+      if (t > first && t < last) found.push_back(t);
+    }
+  };
+  add(knots.u, line.Location().X(), line.Direction().X());
+  add(knots.v, line.Location().Y(), line.Direction().Y());
+  std::sort(found.begin(), found.end());
+  TColStd_Array1OfReal limits(1, static_cast<int>(found.size()));
+  for (std::size_t i = 0; i < found.size(); ++i) limits(static_cast<int>(i) + 1) = found[i];
+  return limits;
+}
+
 /// Closed integral along the parameter curves of `integrand(p, dp)`, spans of lines no longer than
 /// `longest`. The integrand is G dv, or -H du: it vanishes along lines of constant v, or u.
 template <class Integrand>
 Sums integral_along(const TopoDS_Face& face, const Integrand& integrand, double longest,
-                    Reach& reach) {
+                    Reach& reach, const Knots& knots = {}) {
   Sums sums = Sums::Zero();
   for_each_edge(face, [&](const TopoDS_Edge& edge, double sign) {
     double first = 0, last = 0;
@@ -240,8 +265,12 @@ Sums integral_along(const TopoDS_Face& face, const Integrand& integrand, double 
       const double across = std::abs(curve.Line().Direction().X());
       width = across > 1e-14 ? std::min(longest, std::numbers::pi / 4 / across) : longest;
     }
-    const std::vector<double> limits =
+    std::vector<double> limits =
         spans(first, last, spline.IsNull() ? nullptr : &spline->Knots(), width);
+    if (curve.GetType() == GeomAbs_Line) {
+      const TColStd_Array1OfReal at_knots = crossings(curve.Line(), first, last, knots);
+      limits = spans(first, last, &at_knots, width);
+    }
     const auto add = [&](double t, double weight) {
       gp_Pnt2d p;
       gp_Vec2d d;
@@ -311,8 +340,9 @@ void integrate_numerically(const TopoDS_Face& face, const BRepAdaptor_Surface& s
   Reach reach;
   const bool is_round = surface.GetType() == GeomAbs_SurfaceOfRevolution;
   const double longest = is_round ? std::numbers::pi / 2 : HUGE_VAL;
-  store(nv < nu ? integral_along(face, along_v, longest, reach)
-                : integral_along(face, along_u, longest, reach),
+  const Knots knots{{u_knots.begin(), u_knots.end()}, {v_knots.begin(), v_knots.end()}};
+  store(nv < nu ? integral_along(face, along_v, longest, reach, knots)
+                : integral_along(face, along_u, longest, reach, knots),
         result);
 }
 

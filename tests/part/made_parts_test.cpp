@@ -115,7 +115,9 @@ INSTANTIATE_TEST_SUITE_P(Shapes, FreeFormParts,
                          testing::Values(FreeForm{"cylinder", cylinder(20, 50),
                                                   std::numbers::pi * 400 * 50},
                                          FreeForm{"cone", BRepPrimAPI_MakeCone(20, 10, 50).Shape(),
-                                                  std::numbers::pi * 50 * (400 + 200 + 100) / 3}));
+                                                  std::numbers::pi * 50 * (400 + 200 + 100) / 3},
+                                         FreeForm{"sphere", BRepPrimAPI_MakeSphere(20).Shape(),
+                                                  std::numbers::pi * 8000 * 4 / 3}));
 
 }  // namespace
 }  // namespace ridgeline::part
