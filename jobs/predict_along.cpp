@@ -66,6 +66,20 @@ void read_options_of(Object& job, AlongJob& out) {
   out.options.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U));
 }
 
+// About 1024 a revolution, a whole number each tooth pitch that a fast transform likes: then one
+// tooth stands for all.
+int usual_samples(int teeth) {
+  constexpr int wanted = 1024;
+  const auto is_smooth = [](int n) {
+    for (const int prime : {2, 3, 5})
+      while (n % prime == 0) n /= prime;
+    return n == 1;
+  };
+  int pitch = (wanted + teeth - 1) / teeth;
+  while (!is_smooth(pitch)) ++pitch;
+  return pitch * teeth;
+}
+
 void read_course(Object& job, const AlongSource& source, AlongJob& out) {
   const int elements = job.integer("nq", 8, 1024, 256);
   const std::optional<Value> given = job.optional("dynamics");
@@ -75,7 +89,11 @@ void read_course(Object& job, const AlongSource& source, AlongJob& out) {
   out.course.cutter = out.tool.cutter;
   out.course.coefficients = out.material.coefficients;
   out.course.spindle = source.tool.spindle;
-  out.course.samples = job.integer("N", 16, 65536, 1024);
+  constexpr double most_places = 1 << 22;  // what a chip search may look at
+  out.course.samples = job.integer("N", 16, 65536, usual_samples(source.tool.flutes));
+  if (static_cast<double>(out.course.samples) * out.tool.cutter.elements > most_places)
+    job.refuse("N",
+               "so small that N times the elements of a tooth is at most " + text(most_places));
   out.course.earlier_teeth = job.integer("npast", 1, 16, 1);
   if (job.boolean("stock_limit", false)) out.course.chip_end = cutting::ChipEnd::StockLimited;
 }

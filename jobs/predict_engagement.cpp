@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/cutting/modal_fit.hpp"
 #include "jobs/predict_kinds.hpp"
 #include "jobs/svg.hpp"
 
@@ -164,9 +165,11 @@ Json stability_document(const PredictJob& job, std::vector<std::string>& warning
   if (job.test == StabilityTest::None) return nullptr;
   const auto& [cut, compliance, S, options, time, fall_back] = job.engagement;
   try {
-    return name(cutting::stability(cut, compliance, S, progress));
+    if (cutting::is_measured(compliance))
+      warnings.emplace_back("stability is that of the modes fitted to the measured response");
+    return name(cutting::stability(cut, cutting::with_modes(compliance), S, progress));
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::Unsupported) throw;
+    if (error.code() != ErrorCode::NotConverged) throw;
     warnings.push_back("stability is not known. " + std::string(error.what()));
     return nullptr;
   }

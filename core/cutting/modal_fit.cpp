@@ -130,4 +130,18 @@ ModalFit fit_modes(const MeasuredResponse& measured) {
   return out;
 }
 
+bool is_measured(const Compliance& compliance) {
+  return std::holds_alternative<MeasuredResponse>(compliance.x) ||
+         std::holds_alternative<MeasuredResponse>(compliance.y);
+}
+
+Compliance with_modes(const Compliance& compliance) {
+  Compliance out = compliance;
+  for (Direction* direction : {&out.x, &out.y}) {
+    const auto* measured = std::get_if<MeasuredResponse>(direction);
+    if (measured != nullptr) *direction = fit_modes(*measured).modes;
+  }
+  return out;
+}
+
 }  // namespace ridgeline::cutting

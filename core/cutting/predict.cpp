@@ -1,5 +1,7 @@
 #include "core/cutting/predict.hpp"
 
+#include "core/cutting/modal_fit.hpp"
+
 namespace ridgeline::cutting {
 namespace {
 
@@ -21,7 +23,7 @@ Predicted predict(const Engagement& engagement, Method method, const Deflections
   Predicted out;
   out.method = method;
   if (method == Method::TimeDomain) {
-    TimeDomain run = time_domain(cut, compliance, S, time, progress);
+    TimeDomain run = time_domain(cut, with_modes(compliance), S, time, progress);
     out.prediction.converged = run.converged;
     out.prediction.loops = run.revolutions;
     take(std::move(run), out);
@@ -36,7 +38,7 @@ Predicted predict(const Engagement& engagement, Method method, const Deflections
   out.prediction = iterate(cut, compliance, S, options, start, progress);
   if (out.prediction.converged || !fall_back) return out;
   out.fell_back = true;
-  take(time_domain(cut, compliance, S, time, progress), out);
+  take(time_domain(cut, with_modes(compliance), S, time, progress), out);
   return out;
 }
 

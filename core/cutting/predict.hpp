@@ -29,7 +29,8 @@ struct Predicted {
 };
 
 /// Predicts by the method asked for; a cut whose iteration does not converge is stepped through
-/// time instead. Throws Error{NotConverged} when neither gives an answer and a fall-back was
+/// time instead. The time domain moves by modes: of a measured response by those fitted to it.
+/// Throws Error{NotConverged} when neither gives an answer and a fall-back was
 /// wanted.
 Predicted predict(const Engagement& engagement, Method method, const Deflections& start = {},
                   const Progress& progress = {});

@@ -186,6 +186,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"FeedBeyondTheTool", R"({"along": {"feed": 500000}})", "bad_input", "/along/feed"},
         Refused{"SpringPass", R"({"along": {"spring_pass": true}})", "unsupported",
                 "/along/spring_pass"},
+        Refused{"TooManyPlaces", R"({"N": 65536, "nq": 1024})", "bad_input", "/N"},
         Refused{"UnknownKey", R"({"steel": 1})", "bad_input", "/steel"},
         Refused{"NegativeCoefficient", R"({"material": {"Ktc": -1}})", "bad_input",
                 "/material/Ktc"},

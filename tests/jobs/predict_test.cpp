@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <complex>
 #include <filesystem>
 #include <fstream>
 
@@ -138,6 +139,30 @@ TEST(PredictJob, DrawsTheLobes) {
   EXPECT_NE(drawn.text.find("Stability lobes"), std::string::npos);
   job["depths"]["of"] = "c";
   EXPECT_EQ(run(job)["error"]["field"], "/depths/of");
+}
+
+// A response measured every 5 Hz gives nearly what its mode does, and the modes fitted to it the
+// stability.
+TEST(PredictJob, MeasuredResponseInPlaceOfModes) {
+  Json job = oracle_job();
+  job.erase("stability");
+  const Json modal = run(job);
+  Json lines = Json::array();
+  for (int i = 0; i < 4000; ++i) {
+    const double f = 5.0 * i;
+    const std::complex<double> G =
+        1 / 2000.0 / std::complex<double>(1 - f * f / 1.21e6, 0.06 * f / 1100);
+    lines.push_back({f, G.real(), G.imag()});
+  }
+  for (const char* axis : {"x", "y"}) {
+    job["case"].erase(std::string("modes_") + axis);
+    job["case"][std::string("frf_") + axis] = lines;
+  }
+  const Json measured = run(job);
+  ASSERT_EQ(measured["status"], "ok") << measured["error"].dump();
+  EXPECT_NEAR(measured["e_mm"].get<double>(), modal["e_mm"].get<double>(), 1e-5);
+  EXPECT_EQ(measured["stability"], modal["stability"]);
+  EXPECT_NE(measured["warnings"].dump().find("fitted"), std::string::npos);
 }
 
 struct Refused {
