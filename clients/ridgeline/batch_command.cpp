@@ -1,8 +1,12 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <mutex>
 #include <set>
 #include <thread>
 
@@ -21,6 +25,7 @@ struct Arguments {
   std::string folder;
   std::string format = "json";
   int at_once = 0;
+  bool is_again = false;
 };
 
 /// One job of a batch: its file, its result file and what became of it.
@@ -28,6 +33,43 @@ struct Item {
   std::string job;
   std::string output;
   Outcome outcome;
+  bool was_there = false;  ///< done by an earlier run
+};
+
+/// What is done, kept beside the results: a batch that was interrupted goes on where it stopped. A
+/// line for each result: a hash of its job's text, and its file. Written when the result is there.
+class Journal {
+public:
+  explicit Journal(const std::string& folder)
+      : file_(std::filesystem::path(folder) / ".ridgeline-batch") {
+    std::ifstream stream(file_);
+    for (std::string line; std::getline(stream, line);) done_.insert(line);
+  }
+
+  bool has(const Item& item, const std::string& job) const {
+    return done_.contains(line(item, job)) && std::filesystem::exists(item.output);
+  }
+
+  void add(const Item& item, const std::string& job) {
+    const std::scoped_lock lock(mutex_);
+    std::ofstream stream(file_, std::ios::app);
+    stream << line(item, job) << std::endl;
+    if (!stream)
+      throw Error(ErrorCode::BadFile, "cannot write " + file_.string() +
+                                          ": the batch could not go on where it stopped");
+  }
+
+private:
+  /// FNV-1a: another job under the same file name is not done.
+  static std::string line(const Item& item, const std::string& job) {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const char c : job) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+    return fmt::format("{:016x} {}", hash, std::filesystem::path(item.output).filename().string());
+  }
+
+  std::filesystem::path file_;
+  std::set<std::string> done_;
+  std::mutex mutex_;
 };
 
 std::vector<Item> items_of(const Arguments& arguments) {
@@ -55,13 +97,18 @@ std::size_t jobs_at_once(const Session& session, const Arguments& arguments) {
   return std::clamp<std::size_t>(count, 1, arguments.jobs.size());
 }
 
-Outcome run_item(const Session& session, const Item& item, const std::string& format) {
+Outcome run_item(const Session& session, Item& item, const Arguments& arguments, Journal& journal) {
   return attempt([&] {
+    const std::string& format = arguments.format;
     const std::string text = read_file(item.job);
+    item.was_there = !arguments.is_again && journal.has(item, text);
+    if (item.was_there) return Outcome{};
     jobs::parse(text);
     const auto listener = [](double, std::string_view) {};
     const Outcome outcome = outcome_of(session.ask(text, format, listener), format);
-    if (outcome.status == ExitStatus::Done) write_file(item.output, outcome.text);
+    if (outcome.status != ExitStatus::Done) return outcome;
+    write_file(item.output, outcome.text);
+    journal.add(item, text);
     return outcome;
   });
 }
@@ -69,11 +116,12 @@ Outcome run_item(const Session& session, const Item& item, const std::string& fo
 /// Every thread takes the next job until there is none.
 void run_all(const Session& session, const Arguments& arguments, std::vector<Item>& items) {
   ProgressBar bar(session.options().quiet ? ProgressBar::Mode::Off : ProgressBar::Mode::Automatic);
+  Journal journal(arguments.folder);
   std::atomic<std::size_t> next = 0, done = 0;
   const auto work = [&] {
     for (std::size_t i = next++; i < items.size(); i = next++) {
       if (session.interrupt().is_interrupted()) return;
-      items[i].outcome = run_item(session, items[i], arguments.format);
+      items[i].outcome = run_item(session, items[i], arguments, journal);
       bar.show(static_cast<double>(++done) / static_cast<double>(items.size()), items[i].job);
     }
   };
@@ -86,6 +134,7 @@ nlohmann::json line_of(const Item& item) {
   if (item.outcome.status == ExitStatus::Done) {
     line["status"] = "ok";
     line["output"] = item.output;
+    if (item.was_there) line["earlier"] = true;
   } else {
     const nlohmann::json document = nlohmann::json::parse(item.outcome.text);
     line["status"] = "error";
@@ -144,7 +193,11 @@ void add_batch_command(CLI::App& app, Selected& selected) {
   command
       ->add_option("--at-once", arguments->at_once, "Jobs under way at a time (default: workers)")
       ->check(CLI::Range(1, 1000));
-  command->footer("Prints what became of each job; exit status 1 when any was refused.");
+  command->add_flag("--again", arguments->is_again,
+                    "Compute also what an earlier run left in DIR from the same job file");
+  command->footer(
+      "Prints what became of each job; exit status 1 when any was refused. An interrupted batch, "
+      "started\nagain, computes what is missing; after a change of the library use --again.");
   command->callback([&selected, arguments] {
     selected.run = [arguments](const Session& session) { return run(session, *arguments); };
   });

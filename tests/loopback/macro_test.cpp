@@ -42,6 +42,7 @@ TEST_F(Loopback, MacroProgramsAndCyclesAnswerAsLocally) {
 TEST_F(Loopback, EndlessProgramsAreCancelled) {
   const auto service = start("north");
   Client client(options());
+  ASSERT_EQ(code(client.echo("it is there")), "ok");
   const Json job = {
       {"job", "macro"}, {"program", "WHILE[1 EQ 1]DO1\nEND1\n"}, {"limits", {{"steps", 1e12}}}};
   const jobs::Answer answer =
