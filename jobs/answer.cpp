@@ -24,9 +24,9 @@ constexpr std::array<std::string_view, 5> units_formats{"json", "text", "svg", "
 constexpr std::array<std::string_view, 7> chamfer_formats{"json", "nc",   "cl",   "csv",
                                                           "svg",  "html", "macro"};
 constexpr std::array<std::string_view, 2> expand_formats{"json", "nc"};
-constexpr std::array<std::string_view, 4> cycle_formats{"json", "nc", "csv", "svg"};
-constexpr std::array<std::string_view, 6> macro_formats{"json", "nc",    "csv",
-                                                        "svg",  "trace", "text"};
+constexpr std::array<std::string_view, 5> cycle_formats{"json", "nc", "csv", "svg", "html"};
+constexpr std::array<std::string_view, 7> macro_formats{"json", "nc",    "csv", "svg",
+                                                        "html", "trace", "text"};
 
 /// Every kind of job. A new one is one line here and one function in kinds.hpp.
 constexpr std::array kinds{

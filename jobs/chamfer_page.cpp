@@ -26,7 +26,7 @@ using geometry::Trace;
 constexpr double gap = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_samples = 6000;  // of a chart: several a pixel
 constexpr std::size_t clearance_count = 120;
-constexpr std::size_t most_drawn = 20000;  // points of the ridge line and the band
+constexpr std::size_t most_drawn = 6000;  // points of the ridge line and the band
 
 /// A place of the ridge line: a cutting point or half way between two.
 struct Sample {
@@ -188,15 +188,8 @@ struct Series {
   const std::vector<double>& values;
 };
 
-Json chart(const Loop& loop, const char* title, const char* unit,
-           const std::vector<Series>& series) {
-  Json document = {{"title", title},
-                   {"unit", unit},
-                   {"x",
-                    {{"title", "along the ridge line from \xCF\x86 = 0 [mm]"},
-                     {"values", page_values(loop.ridge)}}},
-                   {"at", page_values(loop.travelled)},
-                   {"series", Json::array()}};
+Json chart(const char* title, const char* unit, const std::vector<Series>& series) {
+  Json document = {{"title", title}, {"unit", unit}, {"series", Json::array()}};
   for (const Series& each : series)
     document["series"].push_back({{"name", each.name}, {"values", page_values(each.values)}});
   return document;
@@ -208,15 +201,14 @@ bool has_values(const std::vector<double>& values) {
 
 Json charts_of(const Loop& loop) {
   Json charts = Json::array();
-  charts.push_back(chart(loop, "Chamfer width", "mm",
+  charts.push_back(chart("Chamfer width", "mm",
                          {{"measured on the program", loop.width}, {"computed", loop.computed}}));
-  charts.push_back(
-      chart(loop, "Distance of the path from the ideal one", "mm", {{"error", loop.error}}));
+  charts.push_back(chart("Distance of the path from the ideal one", "mm", {{"error", loop.error}}));
   if (has_values(loop.neck))
-    charts.push_back(chart(loop, "Clearance of neck and shank", "mm", {{"clearance", loop.neck}}));
+    charts.push_back(chart("Clearance of neck and shank", "mm", {{"clearance", loop.neck}}));
   if (has_values(loop.holder))
-    charts.push_back(chart(loop, "Clearance of the holder", "mm", {{"clearance", loop.holder}}));
-  charts.push_back(chart(loop, "Feed of the control point", "mm/min", {{"feed", loop.feed}}));
+    charts.push_back(chart("Clearance of the holder", "mm", {{"clearance", loop.holder}}));
+  charts.push_back(chart("Feed of the control point", "mm/min", {{"feed", loop.feed}}));
   return charts;
 }
 
@@ -277,7 +269,8 @@ void add_view(const ChamferJob& job, const chamfer::Result& result, const verify
   const auto& axes = subject.edge.frame.axes;
   const double side = job.job.side == geometry::Side::Entry ? 1 : -1;
   const Vector3d up = side * axes.col(2);
-  const Vector3d from = -axes.col(1) + 0.35 * axes.col(0) + 0.45 * up;
+  const double height = job.job.edge == geometry::EdgeKind::Inner ? 0.45 : 1.2;
+  const Vector3d from = -axes.col(1) + 0.35 * axes.col(0) + height * up;
   data["focus"] = {{"centre", {centre.x(), centre.y(), centre.z()}}, {"size", (high - low).norm()}};
   data["view"] = {from.x(), from.y(), from.z()};
   data["up"] = {up.x(), up.y(), up.z()};
@@ -291,6 +284,7 @@ std::string chamfer_page(const ChamferJob& job, const chamfer::Result& result,
                          const Json& document) {
   const chamfer::Job& j = job.job;
   const PageMotion motion = page_motion(rounded);
+  const Loop loop = loop_of(job, result, rounded, subject, motion);
   const std::string workpiece = j.workpiece.name.empty() ? "the workpiece" : j.workpiece.name;
   // The hole of the job first: the cut-away view goes through it.
   geometry::Workpiece part = j.workpiece;
@@ -306,7 +300,11 @@ std::string chamfer_page(const ChamferJob& job, const chamfer::Result& result,
       {"ridge", page_points(thinned(result.targets))},
       {"ends", ends_of(result)},
       {"tool", page_tool(j.tool, result.tool_axis, subject.control_to_centre)},
-      {"charts", charts_of(loop_of(job, result, rounded, subject, motion))},
+      {"along",
+       {{"title", "along the ridge line from \xCF\x86 = 0 [mm]"},
+        {"values", page_values(loop.ridge)},
+        {"at", page_values(loop.travelled)}}},
+      {"charts", charts_of(loop)},
       {"report", report_rows(document)},
       {"warnings", document.at("warnings")}};
   add_view(job, result, subject, data);

@@ -3,6 +3,7 @@
 #include "jobs/cycle_job.hpp"
 #include "jobs/kinds.hpp"
 #include "jobs/macro_motion.hpp"
+#include "jobs/macro_page.hpp"
 
 namespace ridgeline::jobs {
 namespace {
@@ -82,6 +83,10 @@ Answer cycle(const Request& request) {
   if (request.format == "nc") answer.text = program_text(cycle, program);
   if (request.format == "csv") answer.text = macro::csv_text(result.motion);
   if (request.format == "svg") answer.text = macro_drawing(result.motion, "Motion of a cycle");
+  if (request.format == "html") {
+    const std::string title = "Cycle: " + request.document.at("family").get<std::string>();
+    answer.text = macro_page(result.motion, title, answer.document);
+  }
   return answer;
 }
 

@@ -18,7 +18,8 @@ namespace {
 using Eigen::Vector3d;
 using Json = nlohmann::json;
 
-constexpr double screen_tolerance = 0.005;  // of arcs drawn as chords [mm]
+constexpr std::size_t most_pieces = 200'000;  // a page of 12 MB
+constexpr double screen_tolerance = 0.005;    // of arcs drawn as chords [mm]
 
 void append(std::string& bytes, std::uint64_t bits, int count) {
   for (int i = 0; i < count; ++i) bytes += static_cast<char>((bits >> (8 * i)) & 0xFF);
@@ -128,6 +129,14 @@ PageMotion page_motion(const path::Motion& motion) {
 }
 
 Json document_of(const PageMotion& motion) {
+  if (motion.to.size() > most_pieces)
+    refuse({.code = ErrorCode::Unsupported,
+            .field = "",
+            .value = std::to_string(motion.to.size()) + " pieces of path",
+            .limit = "at most " + std::to_string(most_pieces),
+            .message = "the path has " + std::to_string(motion.to.size()) +
+                       " pieces, too many for a page in the browser (at most " +
+                       std::to_string(most_pieces) + "): ask for csv or json"});
   return {{"names", motion.names},
           {"kinds", motion.kinds},
           {"start", array_of(motion.start)},

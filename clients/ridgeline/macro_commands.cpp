@@ -117,7 +117,7 @@ void add_run(CLI::App& macro, Selected& selected) {
   command->add_flag("--block-skip", arguments->block_skip, "Leave out blocks that begin with /");
   command->add_flag("--trace", arguments->trace, "With json: every block with what it assigned");
   command->add_option("--format", arguments->format, "What to print")
-      ->check(CLI::IsMember({"json", "nc", "csv", "svg", "trace"}))
+      ->check(CLI::IsMember({"json", "nc", "csv", "svg", "html", "trace"}))
       ->capture_default_str();
   add_output(*command, selected);
   command->footer(
@@ -153,7 +153,7 @@ void add_make(CLI::App& macro, Selected& selected) {
   command->add_option("CYCLE", arguments->program, "Cycle file (JSON), or - for standard input")
       ->required();
   command->add_option("--format", arguments->format, "What to print")
-      ->check(CLI::IsMember({"json", "nc", "csv", "svg"}))
+      ->check(CLI::IsMember({"json", "nc", "csv", "svg", "html"}))
       ->capture_default_str();
   add_output(*command, selected);
   command->footer(

@@ -8,6 +8,8 @@ import {bandObject, loopObject, moveColors, pathObject, placeAt, toolObject, tra
 
 const $ = (id) => document.getElementById(id);
 const data = readData();
+// Charts may share where along the path their values are.
+if (data.along) for (const chart of data.charts) { chart.x = data.along; chart.at = data.along.at; }
 const state = {length: 0, playing: false, cutaway: false};
 
 $('title').textContent = data.title;
@@ -30,9 +32,8 @@ const orbit = new OrbitControls(camera, renderer.domElement);
 
 const line = track(data.motion);
 const moveOf = (piece) => data.motion.moves?.[piece] ?? piece + 1;
-const path = pathObject(data.motion, line);
-scene.add(path);
-const lines = [path];
+const lines = [];
+if (line.count > 1) { lines.push(pathObject(data.motion, line)); scene.add(lines[0]); }
 let setCutaway = () => {};
 if (data.part) {
   const part = partObject(data.part);
@@ -43,14 +44,17 @@ if (data.part) {
 }
 if (data.ridge) { lines.push(loopObject(data.ridge, 3)); scene.add(lines.at(-1)); }
 if (data.ends) scene.add(bandObject(data.ends));
-const tool = data.tool ? toolObject(data.tool) : null;
-if (tool) scene.add(tool);
 
 function bounds() {
   if (data.focus) return {centre: new THREE.Vector3(...data.focus.centre), size: data.focus.size};
   const cloud = new THREE.Box3().setFromArray(line.points);
-  return {centre: cloud.getCenter(new THREE.Vector3()), size: Math.max(cloud.getSize(new THREE.Vector3()).length(), data.part ? reach(data.part) : 0)};
+  return {centre: cloud.getCenter(new THREE.Vector3()), size: Math.max(cloud.getSize(new THREE.Vector3()).length() / 2, data.part ? reach(data.part) : 0, 1)};
 }
+// A path of an unknown tool is followed by a pin.
+const pin = 0.01 * bounds().size;
+const shape = data.tool ?? {radius: pin, neck_radius: pin / 3, neck_length: 12 * pin, axis: [0, 0, 1], control_to_centre: 0};
+const tool = toolObject(shape);
+scene.add(tool);
 function resetView() {
   const {centre, size} = bounds();
   const towards = new THREE.Vector3(...(data.view ?? [0.9, -1.1, 0.9])).normalize();
@@ -84,17 +88,18 @@ function resize() {
 
 // ---- place along the path
 const cursors = [];
-const toCentre = data.tool ? data.tool.control_to_centre : 0;
+const toCentre = shape.control_to_centre;
 function show(length) {
   state.length = Math.min(line.total, Math.max(0, length));
   const {move, point} = placeAt(line, state.length);
-  if (tool) tool.position.set(...point).addScaledVector(new THREE.Vector3(...data.tool.axis), toCentre);
+  tool.position.set(...point).addScaledVector(new THREE.Vector3(...shape.axis), toCentre);
   $('place').value = line.total > 0 ? state.length / line.total : 0;
+  for (const follow of cursors) follow(state.length);
+  draw();
+  if (move < 0) { $('now').textContent = 'no motion'; return; }
   const kind = data.motion.names[data.motion.kinds[move]];
   const feed = data.motion.feed[move];
   $('now').textContent = `${kind.replace('_', ' ')}, move ${moveOf(move)}, X ${point[0].toFixed(3)} Y ${point[1].toFixed(3)} Z ${point[2].toFixed(3)}` + (feed > 0 ? `, F ${feed.toFixed(0)}` : '');
-  for (const follow of cursors) follow(state.length);
-  draw();
 }
 
 // A chart that runs along the path has `at`, the length along the motion at each value.
@@ -179,7 +184,10 @@ document.addEventListener('keydown', (event) => {
   action();
 });
 
-window.ridgeline = {data, state, drawn: false, show, play: () => setPlaying(true), total: line.total};
+window.ridgeline = {
+  data, state, drawn: false, show,
+  picture: () => { renderer.render(scene, camera); return renderer.domElement.toDataURL(); },
+  play: () => setPlaying(true), total: line.total};
 orbit.addEventListener('change', draw);
 new ResizeObserver(resize).observe(host);
 resize();

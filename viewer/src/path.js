@@ -33,6 +33,7 @@ export function track(motion) {
 
 /** The point at a length along the track and the index of the move that runs there. */
 export function placeAt(track, length) {
+  if (track.count < 2) return {move: -1, point: Array.from(track.points)};
   let low = 1;
   let high = track.count - 1;
   while (low < high) {

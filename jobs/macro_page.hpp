@@ -1,0 +1,16 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "core/macro/result.hpp"
+
+namespace ridgeline::jobs {
+
+/// The page of a motion that a macro program or a cycle makes, with its feed and height along the
+/// path. `document`: the result without its arrays.
+std::string macro_page(const macro::Result& result, std::string_view title,
+                       const nlohmann::json& document);
+
+}  // namespace ridgeline::jobs
