@@ -70,6 +70,17 @@ constexpr FamilyAlias aliases[] = {
     {"maclaurin series", "sin cos tan series"},
     {"maclaurin", "sin cos tan series"},
     {"series", "sin cos tan series"},
+    {"sin cos tan", "sin cos tan series"},
+    {"sin cos series", "sin cos tan series"},
+    {"sine cosine tangent series", "sin cos tan series"},
+    {"maclaurin sin cos tan", "sin cos tan series"},
+    {"complex side taper", "complex side"},
+    {"complex side machining", "complex side"},
+    {"helical cylinder side", "helical side"},
+    {"helical wall", "helical side"},
+    {"half round convex ridge", "half round convex"},
+    {"half round concave groove", "half round concave"},
+    {"R-taper-R line", "R-taper-R straight"},
 };
 
 std::string squeezed(std::string_view name) {

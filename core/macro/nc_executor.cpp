@@ -56,6 +56,7 @@ BlockEffect NcExecutor::execute(const NcWords& words, int program, int line) {
   line_ = line;
   moved_ = false;
   one_shot_ = 0;
+  switches_compensation_ = false;
   ended_modal_calls = 0;
   BlockEffect effect;
   if (setting_parameters_) {
@@ -134,7 +135,10 @@ bool NcExecutor::apply_modal(int code) {
     case 210: select_units(code); return true;
     case 400:
     case 410:
-    case 420: modal.compensation = code; return true;
+    case 420:
+      switches_compensation_ = (modal.compensation == 400) != (code == 400);
+      modal.compensation = code;
+      return true;
     case 430:
     case 440:
     case 490: modal.length = code; return true;

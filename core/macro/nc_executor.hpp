@@ -102,9 +102,10 @@ private:
   int program_ = 0;
   int line_ = 0;
   bool moved_ = false;
-  bool setting_parameters_ = false;  ///< between G10 L50 and G11
-  Axes intermediate_{};              ///< point of the last G28 or G30, for G29
-  int one_shot_ = 0;                 ///< G code of group 00 in this block
+  bool switches_compensation_ = false;  ///< this block starts or cancels it
+  bool setting_parameters_ = false;     ///< between G10 L50 and G11
+  Axes intermediate_{};                 ///< point of the last G28 or G30, for G29
+  int one_shot_ = 0;                    ///< G code of group 00 in this block
   struct Cycle {
     double R = 0, Z = 0, Q = 0, P = 0, shift_i = 0, shift_j = 0;
     double initial = 0;

@@ -168,6 +168,7 @@ void NcExecutor::arc(const Axes& to) {
   if (state_.rotation.is_active && state_.rotation.plane != plane) {
     raise(AlarmNumber::PlaneMismatch, "arc");
   }
+  if (switches_compensation_) raise(AlarmNumber::ArcAtStartOrCancel);  // also with D 0
   const bool is_left = state_.modal.motion == 30;
   const Vector2d start = in_plane(plane, linear(state_.position));
   const Vector2d end = in_plane(plane, linear(to));

@@ -105,6 +105,7 @@ std::vector<Written> written_in_shops() {
       {"ThenAlone", "THEN#100=5\nM30\n", 5, 1, {}},
       {"GotoNothing", "GOTO\nM30\n", 128, 1, {}},
       {"GotoAbsent", "#100=1\nGOTO 77\nM30\n", 78, 2, {{100, 1}}},
+      {"ArcStartsCompensation", "G41D1G02X10.Y0R5.F100.\nM30\n", 34, 1, {}},
       {"CrossedLoops", "DO1\nDO2\nEND1\nEND2\nM30\n", 124, 2, {}},
       {"FourDeep", "WHILE[1EQ1]DO4\nEND4\nM30\n", 126, 1, {}},
       {"EndlessRecursion", "M98P1\nM30\nO1\nM98P1\nM99\n", 77, 4, {}},
