@@ -5,4 +5,5 @@ set(HEADERS along.hpp beam.hpp boundary.hpp carve.hpp chip_force.hpp chips.hpp c
   force.hpp height_map.hpp iterate.hpp lobes.hpp modal_fit.hpp oscillator.hpp predict.hpp require.hpp response.hpp rows.hpp
   station.hpp stock.hpp time_domain.hpp wedge.hpp)
 # std::complex products without the branch for NaN and infinity: G and F are finite.
-set_source_files_properties(cutting/response.cpp PROPERTIES COMPILE_OPTIONS -fcx-limited-range)
+set_source_files_properties(cutting/response.cpp PROPERTIES COMPILE_OPTIONS
+  $<$<CXX_COMPILER_ID:GNU>:-fcx-limited-range>)
