@@ -8,11 +8,14 @@
 namespace ridgeline::cutting {
 namespace {
 
+constexpr double chattering = 0.1;  // of the radius: no steady cut gives way so far
+
 IterateOptions iterate_options(const Course& course, const AlongOptions& options) {
   IterateOptions used = options.iterate;
   const bool alike = is_periodic(course.cutter) && course.samples % teeth(course.cutter) == 0;
   used.span = alike ? Span::Pitch : Span::Revolution;
   used.guard = LowPassGuard::Off;
+  used.largest = chattering * course.cutter.r;
   if (options.method == Method::Rigid) used.max_loops = 1;
   return used;
 }
@@ -90,7 +93,7 @@ StationError Follower::shifted(const Station& nominal, double shift) {
   if (!out.converged && options_.fall_back && options_.method == Method::Iterate) {
     fall_back(cut, prediction, out);
   }
-  start_ = prediction.D;
+  start_ = out.settles ? prediction.D : Deflections();  // of nothing, where it chatters
   summarise(prediction, axes, out);
   return out;
 }
@@ -100,7 +103,9 @@ void Follower::fall_back(const Cut& cut, Prediction& prediction, StationError& o
   const std::size_t samples = prediction.D.size();
   out.fell_back = true;
   try {
-    TimeDomain run = time_domain(cut, compliance_, S_, options_.time);
+    TimeOptions time = options_.time;
+    time.largest = std::min(time.largest, chattering);
+    TimeDomain run = time_domain(cut, compliance_, S_, time);
     out.e = run.e;
     out.stability = stability_of(run);
     prediction.F = std::move(run.F);

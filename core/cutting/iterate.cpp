@@ -150,6 +150,7 @@ Prediction Iteration::loops(Deflections D1, const Progress& progress) {
     }
     average(D1, D_, weights.w1());
     if (const double used = greatest_deflection(table_.cut, D1); used > table_.reach) {
+      if (used > options_.largest) break;
       make_room(Cut(table_.cut), used);
     }
   }

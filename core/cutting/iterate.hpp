@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct IterateOptions {
   std::vector<double> weights{1, 3, 6, 10};  ///< w1 at the start and after each divergence
   bool adapt = true;                         ///< change weights at all
   int max_loops = 300;
+  double largest = std::numeric_limits<double>::infinity();  ///< deflection that ends it [mm]
   std::optional<double> kappa;  ///< low-pass at kappa / tc; absent: none
   LowPassGuard guard = LowPassGuard::Refuse;
   Span span = Span::Revolution;

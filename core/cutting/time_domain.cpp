@@ -58,8 +58,9 @@ double longest_delay(const ChipTable& table) {
 // What a tool does that cuts on and on.
 class Run {
 public:
-  Run(const Cut& cut, const Compliance& compliance, double S)
-      : x_(modes_of(compliance.x), 1 / (S * cut.samples)),
+  Run(const Cut& cut, const Compliance& compliance, double S, double largest)
+      : largest_(largest * cut.cutter.r),
+        x_(modes_of(compliance.x), 1 / (S * cut.samples)),
         y_(modes_of(compliance.y), 1 / (S * cut.samples)),
         axes_(compliance.axes) {
     constexpr double first_reach = 0.1;
@@ -119,7 +120,7 @@ private:
 
   Eigen::Vector3d force(int i, const Eigen::Vector2d& U) {
     if (const double moved = U.norm(); !(moved <= table_.reach)) {
-      if (!(moved < table_.cut.cutter.r)) {
+      if (!(moved < largest_)) {
         throw Error(ErrorCode::NotConverged,
                     "time domain: the vibration outgrows the tool, the cut is unstable");
       }
@@ -141,6 +142,7 @@ private:
   }
 
   ChipTable table_;
+  double largest_;  // [mm]
   Oscillator x_, y_;
   Eigen::Matrix2d axes_;
   History history_;
@@ -171,7 +173,7 @@ std::size_t tooth_period(const Cut& cut) {
 
 TimeDomain time_domain(const Cut& cut, const Compliance& compliance, double S,
                        const TimeOptions& options, const Progress& progress) {
-  Run run(cut, compliance, S);
+  Run run(cut, compliance, S, options.largest);
   const auto N = static_cast<std::size_t>(cut.samples);
   TimeDomain out;
   Deflections latest;  // up to three revolutions

@@ -7,6 +7,7 @@ namespace ridgeline::cutting {
 /// How far the time is stepped.
 struct TimeOptions {
   int max_revolutions = 100;
+  double largest = 1;       ///< displacement, of the radius, that ends the run as unstable
   double tolerance = 1e-8;  ///< sum |D - D a revolution before|^2 over sum |D|^2
 };
 
