@@ -82,7 +82,7 @@ function resize() {
   renderer.setSize(w, h);
   camera.aspect = w / h;
   camera.updateProjectionMatrix();
-  for (const one of lines) one.material.resolution.set(w, h);
+  for (const one of lines) one.material.resolution?.set(w, h);
   draw();
 }
 

@@ -9,7 +9,15 @@ export const moveColors = {
   line: 0x2563eb, arc: 0x16a34a, dwell: 0xca8a04,
 };
 
+const most_wide = 1500;  // segments: without a graphics card, wide lines are slow
+
 function segments(positions, colors, width) {
+  if (positions.length / 6 > most_wide) {
+    const plain = new THREE.BufferGeometry();
+    plain.setAttribute('position', new THREE.BufferAttribute(positions, 3));
+    if (colors) plain.setAttribute('color', new THREE.BufferAttribute(colors, 3));
+    return new THREE.LineSegments(plain, new THREE.LineBasicMaterial({vertexColors: Boolean(colors), color: colors ? 0xffffff : 0xea580c}));
+  }
   const geometry = new LineSegmentsGeometry();
   geometry.setPositions(positions);
   if (colors) geometry.setColors(colors);
