@@ -10,7 +10,8 @@
 namespace ridgeline::geometry {
 namespace {
 
-constexpr int seam_samples = 96;  ///< a seam that comes and goes within one step is not seen
+constexpr double coincident = 1e-11;  ///< of the sizes: walls nearer than this are one
+constexpr int seam_samples = 96;      ///< a seam that comes and goes within one step is not seen
 constexpr int deepest_split = 14;
 constexpr int end_bisections = 40;
 
@@ -68,14 +69,15 @@ void Solid::add_meetings(const Face& one, const Face& two) {
     const Eigen::Vector3d right(a.normal.dot(a.point), b.normal.dot(b.point),
                                 rows.row(2).dot(centre_));
     const Eigen::Vector3d point = rows.partialPivLu().solve(right);
-    return follow({SeamPart::Line{point, rows.row(2).transpose().normalized()}, -reach_, reach_});
+    return follow(
+        {SeamPart::Line{point, rows.row(2).transpose().normalized()}, one, two, -reach_, reach_});
   }
   if (one.plane || two.plane) {
     const Face& curved = one.plane ? two : one;
     const Face& flat = one.plane ? one : two;
     const double slope = plane(flat).normal.dot(wall(curved).frame.axes.col(2));
     if (std::abs(slope) <= parallel_sine) return add_lengthwise_cut(curved, flat);
-    return follow({SeamPart::Generators{curved, flat, 0}, 0, 1});
+    return follow({SeamPart::Generators{curved, flat, 0}, one, two, 0, 1});
   }
   if (are_parallel(wall(one).frame.axes.col(2), wall(two).frame.axes.col(2))) {
     return add_parallel_walls(one, two);
@@ -84,15 +86,16 @@ void Solid::add_meetings(const Face& one, const Face& two) {
   for (const int root : {0, 1}) {
     follow({first_is_smaller ? SeamPart::Generators{one, two, root}
                              : SeamPart::Generators{two, one, root},
-            0, 1});
+            one, two, 0, 1});
   }
 }
 
-void Solid::add_line(const Prism& prism, const Eigen::Vector2d& p) {
+void Solid::add_line(const Face& one, const Face& two, const Prism& prism,
+                     const Eigen::Vector2d& p) {
   const Eigen::Vector3d axis = prism.frame.axes.col(2);
   const double middle = axis.dot(centre_ - prism.frame.origin);
   const Eigen::Vector3d point = to_outer(prism.frame, {p.x(), p.y(), middle});
-  follow({SeamPart::Line{point, axis}, -reach_, reach_});
+  follow({SeamPart::Line{point, axis}, one, two, -reach_, reach_});
 }
 
 void Solid::add_lengthwise_cut(const Face& curved, const Face& flat) {
@@ -103,7 +106,7 @@ void Solid::add_lengthwise_cut(const Face& curved, const Face& flat) {
   const Eigen::Vector2d along(-normal.y(), normal.x());
   const Roots roots = line_meetings(prism.profile, foot, along);
   for (int i = 0; i < roots.count; ++i) {
-    add_line(prism, foot + roots.z[static_cast<std::size_t>(i)] * along);
+    add_line(curved, flat, prism, foot + roots.z[static_cast<std::size_t>(i)] * along);
   }
 }
 
@@ -113,22 +116,32 @@ void Solid::add_parallel_walls(const Face& one, const Face& two) {
     const Eigen::Vector2d p = point(u);
     return height(two, to_outer(wall(one).frame, {p.x(), p.y(), 0}));
   };
-  for (int i = 0; i < seam_samples; ++i) {
-    double low = static_cast<double>(i) / seam_samples;
-    double high = static_cast<double>(i + 1) / seam_samples;
-    const bool low_above = gap(low) > 0;
-    if (low_above == (gap(high) > 0)) continue;
+  // Walls that lie in one another, as those of two holes of one axis, meet in no line: of a gap
+  // that is but rounding the sign says nothing.
+  const double rounding = coincident * (reach_ + size(wall(one)));
+  int last = -1;  // sample with a gap
+  double last_gap = 0;
+  for (int i = 0; i <= seam_samples; ++i) {
+    const double here = gap(static_cast<double>(i) / seam_samples);
+    if (std::abs(here) <= rounding) continue;
+    const bool crosses = last >= 0 && i - last <= 2 && (here > 0) != (last_gap > 0);
+    double low = static_cast<double>(last) / seam_samples;
+    double high = static_cast<double>(i) / seam_samples;
+    const bool low_above = last_gap > 0;
+    last = i;
+    last_gap = here;
+    if (!crosses) continue;
     for (int k = 0; k < end_bisections; ++k) {
       const double middle = (low + high) / 2;
       ((gap(middle) > 0) == low_above ? low : high) = middle;
     }
-    add_line(wall(one), point((low + high) / 2));
+    add_line(one, two, wall(one), point((low + high) / 2));
   }
 }
 
 std::optional<Eigen::Vector3d> Solid::boundary_at(const SeamPart& part, double parameter) const {
   const std::optional<Eigen::Vector3d> p = seam_at(part, parameter);
-  return p && is_boundary(*p) ? p : std::nullopt;
+  return p && is_on_seam(part, *p) ? p : std::nullopt;
 }
 
 // Where the seam is on the boundary at one end of a step only, its end is bisected.
@@ -140,7 +153,7 @@ void Solid::follow(const SeamPart& whole) {
     std::optional<Eigen::Vector3d> after = boundary_at(whole, parameter(i + 1));
     double low = parameter(i), high = parameter(i + 1);
     if (before && after) {
-      add({whole.curve, low, high}, *before, *after, 0);
+      add({whole.curve, whole.one, whole.two, low, high}, *before, *after, 0);
     } else if (before || after) {
       double on = before ? low : high, off = before ? high : low;
       std::optional<Eigen::Vector3d> end;
@@ -150,8 +163,8 @@ void Solid::follow(const SeamPart& whole) {
         (p ? on : off) = middle;
         if (p) end = p;
       }
-      if (end && before) add({whole.curve, low, on}, *before, *end, 0);
-      if (end && after) add({whole.curve, on, high}, *end, *after, 0);
+      if (end && before) add({whole.curve, whole.one, whole.two, low, on}, *before, *end, 0);
+      if (end && after) add({whole.curve, whole.one, whole.two, on, high}, *end, *after, 0);
     }
     before = after;
   }
@@ -172,8 +185,8 @@ void Solid::add(const SeamPart& part, const Eigen::Vector3d& a, const Eigen::Vec
     parts_.push_back(part);
     return;
   }
-  add({part.curve, part.from, middle}, a, *p, depth + 1);
-  add({part.curve, middle, part.to}, *p, b, depth + 1);
+  add({part.curve, part.one, part.two, part.from, middle}, a, *p, depth + 1);
+  add({part.curve, part.one, part.two, middle, part.to}, *p, b, depth + 1);
 }
 
 }  // namespace ridgeline::geometry

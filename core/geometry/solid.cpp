@@ -121,6 +121,21 @@ bool Solid::is_boundary(const Eigen::Vector3d& p) const {
   return geometry::distance(material_, p) <= on_boundary * (1 + reach_ / 100);
 }
 
+bool Solid::is_within_cell(const Face& face, const Eigen::Vector3d& p) const {
+  const double slack = on_boundary * (1 + reach_ / 100);
+  const Cell& here = cell(face);
+  const double sign = face.cell == 0 ? 1 : -1;  // of the height, outside the cell
+  if (here.wall && face.plane && sign * height({face.cell, {}}, p) > slack) return false;
+  for (std::size_t k = 0; k < here.planes.size(); ++k) {
+    if (face.plane != k && sign * height({face.cell, k}, p) > slack) return false;
+  }
+  return true;
+}
+
+bool Solid::is_on_seam(const SeamPart& part, const Eigen::Vector3d& p) const {
+  return is_boundary(p) && is_within_cell(part.one, p) && is_within_cell(part.two, p);
+}
+
 void Solid::feet(const Face& face, const Eigen::Vector3d& p, double reach,
                  const std::function<void(const Eigen::Vector3d&)>& found) const {
   const auto offer = [&](const Eigen::Vector3d& q) {

@@ -28,6 +28,7 @@ struct SeamPart {
     Eigen::Vector3d point, direction;
   };
   std::variant<Generators, Line> curve;
+  Face one, two;  ///< that meet
   double from = 0, to = 0;
 };
 
@@ -51,6 +52,10 @@ public:
 
   /// Is a point of a face or a seam on the boundary (in no cavity, not outside)?
   bool is_boundary(const Eigen::Vector3d& p) const;
+
+  /// Is a point where the faces of a seam meet on both of them and on the boundary? (Beyond its
+  /// cell a face is no face: the plane that ends a hole cuts the bore beside the hole in no seam.)
+  bool is_on_seam(const SeamPart& part, const Eigen::Vector3d& p) const;
 
   /// Arcs along all seams, within seam_sag of them; the owner of a piece is its seam part.
   const Trace& seams() const { return seams_; }
@@ -77,7 +82,8 @@ private:
   void add_meetings(const Face& one, const Face& two);
   void add_parallel_walls(const Face& one, const Face& two);
   void add_lengthwise_cut(const Face& curved, const Face& flat);
-  void add_line(const Prism& prism, const Eigen::Vector2d& p);
+  void add_line(const Face& one, const Face& two, const Prism& prism, const Eigen::Vector2d& p);
+  bool is_within_cell(const Face& face, const Eigen::Vector3d& p) const;
   void follow(const SeamPart& whole);
   void add(const SeamPart& part, const Eigen::Vector3d& a, const Eigen::Vector3d& b, int depth);
   std::optional<Eigen::Vector3d> boundary_at(const SeamPart& part, double parameter) const;

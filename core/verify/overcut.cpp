@@ -125,8 +125,8 @@ double Search::seam_depth(const Eigen::Vector3d& c) const {
   const Extreme nearest = golden_maximum(
       [&](double w) {
         const std::optional<Eigen::Vector3d> q = solid_.seam_at(part, w);
-        return q && solid_.is_boundary(*q) ? -(*q - c).norm()
-                                           : -std::numeric_limits<double>::infinity();
+        return q && solid_.is_on_seam(part, *q) ? -(*q - c).norm()
+                                                : -std::numeric_limits<double>::infinity();
       },
       part.from - width, part.to + width, golden_settled * width);
   return std::isfinite(nearest.value) ? D_ + nearest.value : depth;

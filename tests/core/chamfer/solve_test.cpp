@@ -113,6 +113,19 @@ INSTANTIATE_TEST_SUITE_P(
               job.clearance = 2;
             },
             {0, 0, 1}},
+        Way{"inner_beside_ports_of_one_wall",  // whose ends and walls lie in those of this hole
+            [](Job& job) {
+              job.workpiece.holes[0].walls = 1;
+              job.workpiece.holes[0].position = {0, 0, 0};
+              geometry::Hole port = job.workpiece.holes[0];
+              port.name = "opposite";
+              port.axis = {0, 0, -1};
+              job.workpiece.holes.push_back(port);
+              port.name = "across";
+              port.axis = {1, 0, 0};
+              job.workpiece.holes.push_back(port);
+            },
+            {0, 0, 1}},
         Way{"outer_acute_tip_with_the_centre_in_it",  // the centre lies in the tip that is cut off
             [](Job& job) {
               job.edge = EdgeKind::Outer;
