@@ -90,9 +90,12 @@ CanonRun run_rs274(const std::string& program) {
   table << "T12 P12 D0.236220472440945 Z3.93700787401575\n";
   for (int tool = 1; tool <= 8; ++tool) table << "T" << tool << " P" << tool << " Z0\n";
   table.close();
-  const std::string command = "cd " + folder.file("") + " && timeout 20 rs274 -g -n 2 -t " +
-                              folder.file("tool.tbl") + " -v " + folder.file("fresh.var") + " " +
-                              folder.file("program.ngc") + " > " + folder.file("canon") + " 2>&1";
+  // Its processes share memory of the machine and can take it from each other: one at a time.
+  const std::string lock = (std::filesystem::temp_directory_path() / "rs274.lock").string();
+  const std::string command = "cd " + folder.file("") + " && flock " + lock +
+                              " timeout 20 rs274 -g -n 2 -t " + folder.file("tool.tbl") + " -v " +
+                              folder.file("fresh.var") + " " + folder.file("program.ngc") + " > " +
+                              folder.file("canon") + " 2>&1";
   CanonRun run;
   const int status = std::system(command.c_str());
   run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
