@@ -9,6 +9,7 @@
 #include <iostream>
 #include <thread>
 
+#include "core/base/version.hpp"
 #include "service/log.hpp"
 #include "service/server.hpp"
 
@@ -106,7 +107,7 @@ int serve(const Options& options) {
                        {"library", library.file()},
                        {"workers", options.server.limits.workers},
                        {"pid", getpid()},
-                       {"version", RIDGELINE_VERSION}});
+                       {"version", version()}});
   sigset_t signals;
   sigemptyset(&signals);
   for (const int each : {SIGINT, SIGTERM, SIGUSR1}) sigaddset(&signals, each);
@@ -138,7 +139,7 @@ int main(int argc, char** argv) {
   options.library = service::default_library_file().string();
   CLI::App app("Ridgeline's service: computes chamfer paths and keeps the library, over DDS",
                "ridgelined");
-  app.set_version_flag("--version", std::string("ridgelined ") + RIDGELINE_VERSION);
+  app.set_version_flag("--version", "ridgelined " + std::string(version()));
   declare(app, options);
   try {
     app.parse(argc, argv);

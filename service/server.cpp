@@ -8,6 +8,7 @@
 #include <fstream>
 #include <thread>
 
+#include "core/base/version.hpp"
 #include "service/log.hpp"
 
 namespace ridgeline::service {
@@ -181,7 +182,7 @@ wire::InstanceStatus Server::status() const {
   const Sharing::Summary library = sharing_.summary();
   wire::InstanceStatus status;
   status.name = instance_;
-  status.version = RIDGELINE_VERSION;
+  status.version = version();
   static const std::string host = host_name();
   status.host = host;
   status.pid = getpid();

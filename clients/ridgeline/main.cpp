@@ -7,6 +7,7 @@
 
 #include "clients/ridgeline/commands.hpp"
 #include "clients/ridgeline/files.hpp"
+#include "core/base/version.hpp"
 
 namespace ridgeline::command {
 namespace {
@@ -57,7 +58,7 @@ int run(int argc, char** argv) {
   Options options;
   Selected selected;
   CLI::App app{"Tool paths that chamfer and deburr the edges of cross holes", "ridgeline"};
-  app.set_version_flag("--version", "ridgeline " RIDGELINE_VERSION);
+  app.set_version_flag("--version", "ridgeline " + std::string(version()));
   app.require_subcommand(1);
   app.fallthrough();
   app.footer(

@@ -1,2 +1,2 @@
-set(SOURCES error.cpp text.cpp)
-set(HEADERS angle.hpp error.hpp progress.hpp root.hpp text.hpp tolerance.hpp)
+set(SOURCES error.cpp text.cpp version.cpp)
+set(HEADERS angle.hpp error.hpp progress.hpp root.hpp text.hpp tolerance.hpp version.hpp)
