@@ -1,15 +1,11 @@
 #include "jobs/part.hpp"
 
-#include <algorithm>
 #include <list>
 #include <mutex>
 
-#include "jobs/part_mouths.hpp"
+#include "jobs/step_reader.hpp"
 #include "jobs/units_product.hpp"
 #include "jobs/units_shape.hpp"
-#include "part/isolate.hpp"
-#include "part/product.hpp"
-#include "part/step.hpp"
 
 namespace ridgeline::jobs {
 namespace {
@@ -52,7 +48,7 @@ private:
   std::size_t bytes_ = 0;
 };
 
-/// An Error of the child, from its error object.
+/// An Error of the reader, from its error object.
 [[noreturn]] void rethrow(const Json& error, const std::string& field) {
   ErrorDetails details;
   details.field = field;
@@ -62,46 +58,26 @@ private:
               error.value("message", ""), details);
 }
 
-/// What `read` makes of a file, in a process of its own or from memory.
-Json read_isolated(const Value& step, const std::string& how, const Progress& progress,
-                   const std::function<Json()>& read) {
+/// What is found in a file, by ridgeline-step or from memory. `wish` as in step/reading.hpp.
+Json read_file(const Value& step, const Json& wish, const Progress& progress) {
   static Memory memory;
-  const std::string key = how + "\n" + step.string();
+  const std::string key = wish.dump() + "\n" + step.string();
   if (std::optional<Json> known = memory.find(key)) return *std::move(known);
-  part::prepare();
-  const std::string text = part::isolated(
-      [&] {
-        try {
-          return read().dump(-1, ' ', false, Json::error_handler_t::replace);
-        } catch (const Error& error) {
-          return refusal(error).document.dump(-1, ' ', false, Json::error_handler_t::replace);
-        }
-      },
-      progress);
-  Json document = Json::parse(text, nullptr, false);
-  if (document.is_discarded())
-    throw Error(ErrorCode::Internal, "the part reader answered no document");
+  Json document = read_step_file(wish, step.string(), progress);
   if (document.contains("error")) rethrow(document["error"], step.pointer());
   memory.keep(key, document);
   return document;
 }
 
-std::optional<part::GivenAxis> read_axis(const std::optional<Value>& axis) {
-  if (!axis) return std::nullopt;
-  if (axis->json().is_array()) return part::GivenAxis{{}, axis->direction()};
-  Object object(*axis);
-  part::GivenAxis given;
-  given.direction = object.required("direction").direction();
-  if (const auto point = object.optional("point")) given.point = point->vector3(section_range);
+/// "axis": a direction or {"direction", "point"}.
+Json axis_document(const Value& axis) {
+  if (axis.json().is_array()) return {{"direction", vector_document(axis.direction())}};
+  Object object(axis);
+  Json document = {{"direction", vector_document(object.required("direction").direction())}};
+  if (const auto point = object.optional("point"))
+    document["point"] = vector_document(point->vector3(section_range));
   object.finish();
-  return given;
-}
-
-Json placement_document(const geometry::Frame& frame) {
-  return {{"origin", vector_document(frame.origin)},
-          {"x", vector_document(frame.axes.col(0))},
-          {"y", vector_document(frame.axes.col(1))},
-          {"z", vector_document(frame.axes.col(2))}};
+  return document;
 }
 
 Part part_of(const Json& document) {
@@ -111,29 +87,18 @@ Part part_of(const Json& document) {
 }  // namespace
 
 Part part_of_step(const Value& step, const std::optional<Value>& axis, const Progress& progress) {
-  const std::optional<part::GivenAxis> given = read_axis(axis);
-  const std::string how = "product" + (axis ? axis->json().dump() : std::string());
-  return part_of(read_isolated(step, how, progress, [&]() -> Json {
-    const part::TurnedPart found = part::read_product(step.string(), given);
-    return {{"product", product_document(found.product)},
-            {"placement", placement_document(found.placement)}};
-  }));
+  Json wish = {{"want", "product"}};
+  if (axis) wish["axis"] = axis_document(*axis);
+  return part_of(read_file(step, wish, progress));
 }
 
 units::Region stock_of_step(const Value& step, const Progress& progress) {
-  const Json document = read_isolated(step, "stock", progress, [&]() -> Json {
-    return {{"shape", region_document(part::read_stock(step.string()))}};
-  });
+  const Json document = read_file(step, {{"want", "stock"}}, progress);
   return read_region(Value(document.at("shape"), step.pointer()));
 }
 
 Json mouths_of_step(const Value& step, const Progress& progress) {
-  return read_isolated(step, "mouths", progress, [&] {
-    const std::vector<part::Solid> solids = part::read_step(step.string());
-    const auto largest = std::ranges::max_element(
-        solids, {}, [](const part::Solid& solid) { return solid.model().volume; });
-    return mouths_document(largest->model());
-  });
+  return read_file(step, {{"want", "mouths"}}, progress);
 }
 
 Part part_of_document(const Value& product, const Definitions& definitions) {

@@ -24,7 +24,8 @@ Part part_of_step(const Value& step, const std::optional<Value>& axis, const Pro
 /// "stock_step": the half section of a stock.
 units::Region stock_of_step(const Value& step, const Progress& progress);
 
-/// The mouths of holes of the largest solid of a file: mouths_document() of part_mouths.hpp.
+/// The mouths of holes in round walls of the largest solid of a file, in file coordinates, angles
+/// in degrees: {"mouths": [...], "low": [x, y, z], "high": [x, y, z]}.
 nlohmann::json mouths_of_step(const Value& step, const Progress& progress);
 
 /// "product": {...} of a job: part values; or the name of a part in the library.

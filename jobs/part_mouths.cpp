@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/angle.hpp"
 #include "jobs/definitions.hpp"
 #include "jobs/units_product.hpp"
+#include "part/axis.hpp"
 
 namespace ridgeline::jobs {
 namespace {
@@ -18,28 +18,6 @@ constexpr double square = 0.01;  // [degrees] of skew that is none
 
 Vector3d vector(const Json& v) {
   return {v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>()};
-}
-
-Json mouth_document(const part::Mouth& mouth, std::size_t number) {
-  Json document = {{"name", "M" + std::to_string(number)},
-                   {"kind", part::name(mouth.kind)},
-                   {"wall",
-                    {{"radius", mouth.wall_radius},
-                     {"is_bore", mouth.is_bore},
-                     {"point", vector_document(mouth.wall.point)},
-                     {"axis", vector_document(mouth.wall.direction)}}},
-                   {"position", vector_document(mouth.point)},
-                   {"axis", vector_document(mouth.out)},
-                   {"radius", mouth.radius},
-                   {"crossing_angle", degrees(mouth.angle)},
-                   {"eccentric_distance", mouth.eccentricity}};
-  if (mouth.length > 0) {
-    document["length"] = mouth.length;
-    document["width"] = mouth.width;
-    document["skew"] = degrees(mouth.skew);
-  }
-  if (!mouth.why.empty()) document["why"] = mouth.why;
-  return document;
 }
 
 /// The hole of a mouth as a definition; a text with the reason where there is none.
@@ -106,15 +84,6 @@ Json block_round(const Json& wall, const Json& mouths, const std::string& name) 
 }
 
 }  // namespace
-
-Json mouths_document(const part::Model& model) {
-  Json list = Json::array();
-  for (const part::Mouth& mouth : part::mouths_of(model))
-    list.push_back(mouth_document(mouth, list.size() + 1));
-  return {{"mouths", std::move(list)},
-          {"low", vector_document(model.low)},
-          {"high", vector_document(model.high)}};
-}
 
 Json chamfer_job(const std::string& workpiece, const std::string& hole, const char* edge,
                  const ChamferWish& wish) {

@@ -89,12 +89,6 @@ Model moved(const geometry::Frame& frame, const Model& model) {
 
 }  // namespace
 
-bool is_same_axis(const Axis& a, const Axis& b) {
-  if (a.direction.cross(b.direction).norm() > same_direction) return false;
-  const Eigen::Vector3d d = b.point - a.point;
-  return (d - d.dot(a.direction) * a.direction).norm() <= same_place;
-}
-
 std::optional<Axis> turning_axis(const Model& model) {
   const Face* best = nullptr;
   double most = 0;

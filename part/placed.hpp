@@ -4,22 +4,10 @@
 #include <span>
 
 #include "core/geometry/frame.hpp"
+#include "part/axis.hpp"
 #include "part/solid.hpp"
 
 namespace ridgeline::part {
-
-/// A line in space.
-struct Axis {
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< unit
-};
-
-/// Surfaces within these share an axis: 1e-5 rad, 1e-4 mm; design 1.3-b and section 4.
-constexpr double same_direction = 1e-5;
-constexpr double same_place = 1e-4;
-
-/// Do two lines agree within the tolerances, in either sense?
-bool is_same_axis(const Axis& a, const Axis& b);
 
 /// The turning axis of a solid: the heaviest cluster, by area, of coaxial round faces. Its sense is
 /// that of the file: the largest component is positive. nullopt when there is no round face.

@@ -66,6 +66,11 @@ std::string read(const std::string& path) {
 }
 
 Finished ridgeline(const std::vector<std::string>& arguments, const std::string& in) {
+  return run(RIDGELINE_COMMAND, arguments, in);
+}
+
+Finished run(const std::string& program, const std::vector<std::string>& arguments,
+             const std::string& in) {
   const Folder folder;
   const std::string in_file = folder.write("in", in);
   std::vector<std::string> texts = {"ridgeline"};
@@ -81,8 +86,8 @@ Finished ridgeline(const std::vector<std::string>& arguments, const std::string&
   posix_spawn_file_actions_addopen(&actions, 2, folder.file("err").c_str(), O_WRONLY | O_CREAT,
                                    mode);
   pid_t pid = 0;
-  const int error = ::posix_spawn(&pid, RIDGELINE_COMMAND, &actions, nullptr,
-                                  pointers(texts).data(), pointers(variables).data());
+  const int error = ::posix_spawn(&pid, program.c_str(), &actions, nullptr, pointers(texts).data(),
+                                  pointers(variables).data());
   posix_spawn_file_actions_destroy(&actions);
   require(error == 0, "posix_spawn");
   int status = 0;

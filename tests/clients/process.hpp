@@ -19,6 +19,10 @@ struct Finished {
 /// process's with HOME and XDG_DATA_HOME in an empty folder.
 Finished ridgeline(const std::vector<std::string>& arguments, const std::string& in = {});
 
+/// The same by another copy of the program.
+Finished run(const std::string& program, const std::vector<std::string>& arguments,
+             const std::string& in = {});
+
 /// A folder of its own for each test, removed with it.
 class Folder {
 public:

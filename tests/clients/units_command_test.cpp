@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "tests/clients/process.hpp"
 
 namespace ridgeline::tests {
@@ -55,6 +57,35 @@ TEST(UnitsCommand, FilesThatAreNoneAreToldApartFromJobsThatAreRefused) {
                 .at("error")
                 .at("code"),
             "unknown_definition");
+}
+
+// The libraries of Open CASCADE cost every start 35 ms: only the reader links them.
+TEST(UnitsCommand, TheReaderOfStepFilesIsAProgramOfItsOwn) {
+  const std::string program = read(RIDGELINE_COMMAND);
+  EXPECT_EQ(program.find("libTKernel.so"), std::string::npos);
+  const std::string reader = std::filesystem::path(RIDGELINE_COMMAND).parent_path() /
+                             "../../libexec/ridgeline/ridgeline-step";
+  EXPECT_NE(read(reader).find("libTKernel.so"), std::string::npos);
+}
+
+TEST(UnitsCommand, ReadsStepFilesWhereItIsInstalledAndSaysWhatIsMissing) {
+  namespace fs = std::filesystem;
+  const Folder folder;
+  fs::create_directories(folder.file("bin"));
+  fs::create_directories(folder.file("libexec/ridgeline"));
+  const std::string moved = folder.file("bin/ridgeline");
+  fs::copy_file(RIDGELINE_COMMAND, moved);
+  const std::vector<std::string> plan = {"units", "plan", "-", "--local"};
+  const std::string job = R"({"job": "units", "product": "tests/parts/own_hard_shaft.step"})";
+  const Finished without = run(moved, plan, job);
+  EXPECT_EQ(without.status, 2);
+  EXPECT_EQ(without.json().at("error").at("code"), "storage");
+  EXPECT_NE(without.err.find("libexec/ridgeline/ridgeline-step"), std::string::npos) << without.err;
+  fs::copy_file(
+      fs::path(RIDGELINE_COMMAND).parent_path() / "../../libexec/ridgeline/ridgeline-step",
+      folder.file("libexec/ridgeline/ridgeline-step"));
+  const Finished with = run(moved, plan, job);
+  EXPECT_EQ(with.status, 0) << with.err;
 }
 
 TEST(UnitsCommand, HoleEdgesOfAPartBecomeWorkpiecesAndJobs) {

@@ -5,7 +5,7 @@ file(REMOVE_RECURSE ${WORK})
 set(prefix ${WORK}/prefix)
 run(said ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 foreach(file IN ITEMS
-    bin/ridgeline bin/ridgelined
+    bin/ridgeline bin/ridgelined libexec/ridgeline/ridgeline-step
     include/ridgeline/core/chamfer/job.hpp
     ${LIBDIR}/libridgeline_chamfer.a ${LIBDIR}/cmake/Ridgeline/RidgelineConfig.cmake
     lib/systemd/system/ridgelined.service
@@ -25,6 +25,9 @@ foreach(program IN ITEMS ridgeline ridgelined)
 endforeach()
 run(said ${prefix}/bin/ridgeline chamfer ${prefix}/share/ridgeline/examples/inline.json --local --format nc)
 require_match("${said}" "RIDGELINE")
+file(WRITE ${WORK}/part.json "{\"job\": \"units\", \"product\": \"${CMAKE_CURRENT_LIST_DIR}/../parts/own_hard_shaft.step\"}")
+run(said ${prefix}/bin/ridgeline units plan ${WORK}/part.json --local)
+require_match("${said}" "bar_outer")
 
 # A copy, so that nothing but the installed files can be found.
 file(COPY ${prefix}/share/ridgeline/examples/core DESTINATION ${WORK})

@@ -1,0 +1,116 @@
+#include <fstream>
+#include <sstream>
+
+#include "jobs/answer.hpp"
+#include "service/library.hpp"
+#include "service/library_job.hpp"
+#include "tests/loopback/network.hpp"
+
+namespace ridgeline {
+namespace {
+
+using client::Client;
+using Json = nlohmann::json;
+
+Json example(const std::string& name) {
+  return Json::parse(std::ifstream(RIDGELINE_SOURCE "/clients/examples/" + name));
+}
+
+/// The result without what differs each time.
+Json lasting(const jobs::Answer& answer) {
+  Json document = jobs::assemble(answer);
+  document.erase("solve_seconds");
+  if (document.contains("report")) document["report"].erase("solve_seconds");
+  return document;
+}
+
+/// Few coarse stations, so that the test is short; the arithmetic is the same.
+Json coarse(Json job) {
+  job["N"] = 256;
+  job["nq"] = 64;
+  job["stability_every"] = 20;
+  return job;
+}
+
+class LoopbackPredict : public Loopback {
+protected:
+  void SetUp() override {
+    service_ = start("north");
+    client_ = std::make_unique<Client>(options());
+    const std::string import =
+        Json(
+            {{"job", "library"}, {"operation", "import"}, {"definitions", example("library.json")}})
+            .dump();
+    ASSERT_EQ(code(client_->ask(import, "json")), "ok");
+    service::answer_library(Json::parse(import), library_);
+  }
+
+  /// Answers of the service and of the same code in this process are the same; here it is.
+  Json both(const Json& job, const char* format) {
+    const jobs::Answer there = client_->ask(job.dump(), format);
+    const jobs::Answer here = jobs::answer(job.dump(), format, library_);
+    EXPECT_EQ(code(there), "ok") << there.document;
+    EXPECT_TRUE(lasting(there) == lasting(here)) << job.dump().substr(0, 200);
+    EXPECT_EQ(there.text, here.text);
+    EXPECT_EQ(there.text.empty(), format == std::string("json"));
+    return lasting(there);
+  }
+
+  service::Library library_{":memory:"};
+  std::unique_ptr<Process> service_;
+  std::unique_ptr<Client> client_;
+};
+
+TEST_F(LoopbackPredict, OneEngagementAnswersTheOracleKeyForKey) {
+  const Json oracle = Json::parse(
+      std::ifstream(RIDGELINE_SOURCE "/tests/oracle/error/01-ball-down-milling-1-groove.json"));
+  const Json answer = both({{"job", "predict"},
+                            {"case", oracle.at("case")},
+                            {"speed_rpm", oracle.at("speed_rpm")},
+                            {"options", oracle.at("options")}},
+                           "json");
+  EXPECT_EQ(answer.at("F").size(), answer.at("D").size());
+}
+
+TEST_F(LoopbackPredict, APathItsCorrectionAndItsProgramComeAsLocally) {
+  Json job = coarse(example("predict/port.json"));
+  job["along"]["tolerance"] = 0.05;
+  both(job, "csv");
+  job["correct"] = true;
+  const Json answer = both(job, "json");
+  EXPECT_EQ(answer.at("corrected").at("position").size(), answer.at("position").size());
+  EXPECT_GT(answer.at("position").size(), 8u);
+  both(job, "nc");
+}
+
+TEST_F(LoopbackPredict, ARefusalKeepsItsCodeFieldAndLimit) {
+  Json job = example("predict/slope.json");
+  job["case"]["tool"]["r"] = -1;
+  const Json there = client_->ask(job.dump(), "json").document;
+  EXPECT_EQ(there, jobs::answer(job.dump(), "json", library_).document);
+  EXPECT_EQ(there.at("error").at("field"), "/case/tool/r");
+}
+
+TEST_F(LoopbackPredict, ProgressIsToldAndACancelStopsTheWork) {
+  Json job = example("predict/slope.json");
+  job.erase("speed_rpm");
+  job["speeds_rpm"] = {{"from", 1000}, {"to", 16000}, {"step", 1}};  // minutes of work
+  job["method"] = "time_domain";
+  std::stop_source stop;
+  double fraction = -1;
+  const jobs::Answer answer = client_->ask(job.dump(), "json",
+                                           {.timeout = 60s,
+                                            .progress =
+                                                [&](const client::ProgressReport& report) {
+                                                  fraction = report.fraction;
+                                                  stop.request_stop();
+                                                },
+                                            .stop = stop.get_token()});
+  EXPECT_EQ(code(answer), "cancelled");
+  EXPECT_GE(fraction, 0);
+  EXPECT_LT(fraction, 1);
+  EXPECT_TRUE(eventually([&] { return client_->status(1s).at(0).running == 0; }));
+}
+
+}  // namespace
+}  // namespace ridgeline
