@@ -15,6 +15,7 @@
 namespace ridgeline::jobs {
 namespace {
 
+using Json = nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) {
@@ -144,6 +145,15 @@ Answer document_of(const ChamferJob& job, const Solved& solved) {
   return answer;
 }
 
+/// The rows are the directions that centres of arcs refer to where the work plane is tilted.
+void add_plane(const Solved& solved, Answer& answer) {
+  const Eigen::Matrix3d axes = nc::plane_axes(solved.program);
+  if (axes.isIdentity(0)) return;
+  Json rows = Json::array();
+  for (int n = 0; n < 3; ++n) rows.push_back({axes(0, n), axes(1, n), axes(2, n)});
+  answer.document["plane_axes"] = rows;
+}
+
 void add_arrays(const Solved& solved, Answer& answer) {
   const chamfer::Result& result = solved.result;
   answer.arrays.push_back({"/parameter", {result.parameter.size()}, result.parameter});
@@ -174,6 +184,7 @@ Answer chamfer(const Request& request) {
   const Solved solved = solve_to_width(job, request.progress);
   refuse_failures(job, solved);
   Answer answer = document_of(job, solved);
+  if (job.job.arcs) add_plane(solved, answer);
   if (request.format == "json")
     add_arrays(solved, answer);
   else

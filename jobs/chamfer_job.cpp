@@ -180,6 +180,11 @@ void read_output(const Value& value, ChamferJob& result) {
   program.tilted = output.choice("tilted", tilted_outputs, program.tilted);
   result.job.decimals = program.decimals;
   result.job.arcs = output.boolean("arcs", false);
+  if (program.tilted == nc::TiltedOutput::WorkFrame) {
+    const bool has_any_helix = program.dialect != nc::Dialect::Heidenhain;
+    result.job.arc_frame =
+        has_any_helix ? chamfer::ArcFrame::WorkFrame : chamfer::ArcFrame::WorkFrameXY;
+  }
   result.job.control_point =
       output.choice("control_point", control_points, result.job.control_point);
   output.finish();

@@ -1,31 +1,86 @@
 #include "core/chamfer/blocks.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
+#include <optional>
 
-#include "core/chamfer/arcs.hpp"
 #include "core/path/arc.hpp"
+#include "core/path/arc_fit.hpp"
 
 namespace ridgeline::chamfer {
 namespace {
 
-path::ArcPlane plane_of(const Eigen::Vector3d& tool_axis) {
-  constexpr double aligned = 1e-9;
-  if (1 - std::abs(tool_axis.z()) < aligned) return path::ArcPlane::XY;
-  if (1 - std::abs(tool_axis.y()) < aligned) return path::ArcPlane::ZX;
-  if (1 - std::abs(tool_axis.x()) < aligned) return path::ArcPlane::YZ;
-  throw Error(ErrorCode::Unsupported,
-              "arcs need a tool along X, Y or Z; this one is tilted: ask for lines",
-              {.field = "/output/arcs", .value = "true", .limit = "false"});
+constexpr double widening = 2;      ///< of the tolerance, until one arc reaches over a step
+constexpr int most_widenings = 40;  ///< then there is no arc over it: a line
+
+/// What an arc may be about.
+struct ArcAxes {
+  path::ArcPlane plane = path::ArcPlane::XY;
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+};
+
+constexpr path::ArcPlane plane_across(int axis) {
+  if (axis == 0) return path::ArcPlane::YZ;
+  return axis == 1 ? path::ArcPlane::ZX : path::ArcPlane::XY;
+}
+
+std::vector<ArcAxes> possible_axes(const ArcWish& wish) {
+  if (const std::optional<int> axis = path::machine_axis(wish.tool_axis)) {
+    return {{plane_across(*axis)}};
+  }
+  if (wish.frame == ArcFrame::WorkPlane) {
+    return {{path::ArcPlane::XY, path::tilted_axes(wish.tool_axis)}};
+  }
+  if (wish.frame == ArcFrame::WorkFrameXY) return {{path::ArcPlane::XY}};
+  return {{path::ArcPlane::XY}, {path::ArcPlane::ZX}, {path::ArcPlane::YZ}};
 }
 
 CutBlock block_over(const std::vector<CutPoint>& points, std::size_t from, std::size_t to) {
-  CutBlock block{.to = points[to], .contact = 0, .centre = 0, .arc = {}};
+  CutBlock block{.to = points[to], .end = points[to].C, .contact = 0, .centre = 0, .arc = {}};
   for (std::size_t i = from + 1; i <= to; ++i) {
     block.contact += (middle(points[i]) - middle(points[i - 1])).norm();
     block.centre += (points[i].C - points[i - 1].C).norm();
   }
   return block;
+}
+
+/// Largest distance of the points to the chord between the first and the last.
+double line_error(const std::vector<Eigen::Vector3d>& C) {
+  const Eigen::Vector3d chord = C.back() - C.front();
+  double error = 0;
+  for (const Eigen::Vector3d& c : C) {
+    const double t = std::clamp((c - C.front()).dot(chord) / chord.squaredNorm(), 0.0, 1.0);
+    error = std::max(error, (C.front() + t * chord - c).norm());
+  }
+  return error;
+}
+
+/// One block from the first point to the last, as near as an arc comes.
+path::ArcFit single(const std::vector<Eigen::Vector3d>& C, const ArcWish& wish,
+                    const ArcAxes& axes) {
+  double tolerance = std::max(wish.tolerance, widening * wish.sampling_error);
+  for (int i = 0; i < most_widenings; ++i, tolerance *= widening) {
+    path::ArcFit fit = path::fit_arcs(C, tolerance, wish.sampling_error, axes.plane, axes.axes);
+    if (fit.moves.size() == 1) return fit;
+  }
+  return {.moves = {{path::MoveKind::Cut, C.back(), 0, std::nullopt}},
+          .index = {C.size() - 1},
+          .error = wish.sampling_error + line_error(C)};
+}
+
+path::ArcFit stepped(const std::vector<Eigen::Vector3d>& C, const ArcWish& wish,
+                     const ArcAxes& axes) {
+  path::ArcFit all;
+  for (std::size_t from = 0; from + 1 < C.size(); from += wish.step) {
+    const std::size_t to = std::min(from + wish.step, C.size() - 1);
+    const std::vector<Eigen::Vector3d> part(C.begin() + static_cast<std::ptrdiff_t>(from),
+                                            C.begin() + static_cast<std::ptrdiff_t>(to) + 1);
+    const path::ArcFit one = single(part, wish, axes);
+    all.moves.push_back(one.moves.front());
+    all.index.push_back(to);
+    all.error = std::max(all.error, one.error);
+  }
+  return all;
 }
 
 }  // namespace
@@ -36,31 +91,30 @@ std::vector<CutBlock> straight_blocks(const std::vector<CutPoint>& points) {
   return blocks;
 }
 
-Blocks arc_blocks(const std::vector<CutPoint>& points, const Eigen::Vector3d& tool_axis,
-                  double tolerance) {
-  const path::ArcPlane plane = plane_of(tool_axis);
+Blocks arc_blocks(const std::vector<CutPoint>& points, const ArcWish& wish) {
   Blocks result;
   if (points.size() < 2) return result;
-  const auto [i, j, k] = path::axes_of(plane);
-  std::vector<Eigen::Vector3d> turned;
-  for (const CutPoint& p : points) turned.push_back({p.C[i], p.C[j], p.C[k]});
-  std::size_t from = 0;
-  for (const ArcBlock& fitted : fit_arcs(turned, tolerance)) {
-    CutBlock block = block_over(points, from, fitted.end);
-    if (fitted.is_arc) {
-      path::Arc arc;
-      arc.plane = plane;
-      arc.centre = block.to.C;
-      arc.centre[i] = fitted.centre.x();
-      arc.centre[j] = fitted.centre.y();
-      arc.sense = fitted.is_counter_clockwise ? path::ArcSense::CounterClockwise
-                                              : path::ArcSense::Clockwise;
-      block.arc = arc;
-    }
-    result.error = std::max(result.error, fitted.error);
-    result.blocks.push_back(block);
-    from = fitted.end;
+  std::vector<Eigen::Vector3d> C;
+  C.reserve(points.size());
+  for (const CutPoint& p : points) C.push_back(p.C);
+  std::optional<path::ArcFit> best;
+  for (const ArcAxes& axes : possible_axes(wish)) {
+    path::ArcFit fit = wish.step > 0 ? stepped(C, wish, axes)
+                                     : path::fit_arcs(C, wish.tolerance, wish.sampling_error,
+                                                      axes.plane, axes.axes);
+    const bool is_better = !best || fit.moves.size() < best->moves.size() ||
+                           (fit.moves.size() == best->moves.size() && fit.error < best->error);
+    if (is_better) best = std::move(fit);
   }
+  std::size_t from = 0;
+  for (std::size_t n = 0; n < best->moves.size(); ++n) {
+    CutBlock block = block_over(points, from, best->index[n]);
+    block.end = best->moves[n].to;
+    block.arc = best->moves[n].arc;
+    result.blocks.push_back(std::move(block));
+    from = best->index[n];
+  }
+  result.error = best->error;
   return result;
 }
 

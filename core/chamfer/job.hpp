@@ -17,6 +17,9 @@ namespace ridgeline::chamfer {
 enum class Direction { Climb, Conventional };
 enum class FeedAt { Contact, Centre };
 enum class ControlPoint { Tip, Centre };
+/// The axes that arcs refer to when the tool axis is not a machine axis: those of a tilted work
+/// plane, or of the work frame, there about any axis or (HEIDENHAIN helices) about Z only.
+enum class ArcFrame { WorkPlane, WorkFrame, WorkFrameXY };
 /// Access along A2 or along A1; the sense that is free is chosen.
 enum class Access { Hole, Bore };
 
@@ -45,6 +48,7 @@ struct Job {
   std::optional<double> lead_radius;
   std::optional<Eigen::Vector3d> end_position;
   bool arcs = false;
+  ArcFrame arc_frame = ArcFrame::WorkPlane;
   int decimals = 4;
   ControlPoint control_point = ControlPoint::Tip;
 };

@@ -193,7 +193,7 @@ void Planner::cut_along(const CutBlock& block) {
     feed *= std::clamp(block.centre / std::max(block.contact, same_place), 1 / largest_feed_ratio,
                        largest_feed_ratio);
   }
-  go(MoveKind::Cut, block.to.C, feed);
+  go(MoveKind::Cut, block.end, feed);
   if (block.arc) plan_.motion.moves.back().arc = block.arc;
 }
 

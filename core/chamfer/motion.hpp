@@ -18,6 +18,7 @@ struct CutPoint {
 /// A block of the cut, from the point before.
 struct CutBlock {
   CutPoint to;
+  Eigen::Vector3d end;           ///< of the ball centre; an arc's is `to.C` but for the tolerance
   double contact = 0;            ///< way of the middle of the chamfer [mm]
   double centre = 0;             ///< way of the ball centre [mm]
   std::optional<path::Arc> arc;  ///< of the ball centre; absent: straight

@@ -18,8 +18,9 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double full_turn = 2 * std::numbers::pi;
-constexpr double arc_sampling = 0.01;  ///< of the tolerance, for the polyline under arcs
-constexpr int border_count = 360;      ///< borders that leads are held against
+constexpr double arc_sampling = 0.0025;  ///< of the tolerance, for the polyline under arcs
+constexpr int points_under_arc = 32;     ///< of that polyline, where the arcs' ends are chosen
+constexpr int border_count = 360;        ///< borders that leads are held against
 
 double wrapped(double u) {
   const double w = u - std::floor(u);
@@ -100,6 +101,7 @@ private:
   std::vector<Route> open_routes() const;
   MotionPlan plan_along(const Route& route, const geometry::Solid& solid);
   void fill(const Route& route, MotionPlan plan);
+  int finer() const;
 
   const Job& job_;
   const Progress& progress_;
@@ -113,12 +115,18 @@ private:
   Result result_;
 };
 
+/// Points of the polyline for one that the job asks for.
+int Solver::finer() const {
+  if (!job_.arcs || !job_.points) return 1;
+  return std::clamp(point_limit / *job_.points, 1, points_under_arc);
+}
+
 // Arcs are fitted to a finer polyline, which takes a small share of the tolerance.
 std::vector<CutPoint> Solver::sampled(double width) {
   const double share = job_.arcs ? arc_sampling : 1;
-  const Loop once = loop(
-      edge_, chamfer(width),
-      {.tolerance = share * job_.tolerance, .points = job_.points, .start_u = start_u_}, progress_);
+  Sampling sampling{.tolerance = share * job_.tolerance, .points = {}, .start_u = start_u_};
+  if (job_.points) sampling.points = *job_.points * finer();
+  const Loop once = loop(edge_, chamfer(width), sampling, progress_);
   result_.points_optimal =
       static_cast<int>(std::ceil(once.points_optimal * std::sqrt(share) - 1e-9));
   sampling_error_ = result_.chord_error = once.chord_error;
@@ -147,6 +155,7 @@ std::vector<CutPoint> Solver::overlap(const std::vector<CutPoint>& loop, bool re
   const SectionPoint last = job_.method == Method::Swept ? swept_at(edge_, wanted, end_u)
                                                          : section_at(edge_, wanted, end_u);
   again.push_back(in_work(edge_, end_u, last));
+  if (again.size() > 1 && again.back().C == again[again.size() - 2].C) again.pop_back();
   return again;
 }
 
@@ -168,10 +177,14 @@ Round Solver::oriented(std::vector<CutPoint> points, bool reversed, double width
     for (CutBlock& block : straight_blocks(past)) round.blocks.push_back(std::move(block));
     return round;
   }
-  const double tolerance = job_.tolerance - sampling_error_;
-  const Blocks once = arc_blocks(lap, tool_axis, tolerance);
-  const Blocks again = arc_blocks(past, tool_axis, tolerance);
-  result_.chord_error = sampling_error_ + std::max(once.error, again.error);
+  const ArcWish wish{.tool_axis = tool_axis,
+                     .frame = job_.arc_frame,
+                     .tolerance = job_.tolerance,
+                     .sampling_error = sampling_error_,
+                     .step = job_.points ? static_cast<std::size_t>(finer()) : 0};
+  const Blocks once = arc_blocks(lap, wish);
+  const Blocks again = arc_blocks(past, wish);
+  result_.chord_error = std::max(once.error, again.error);
   round.blocks = once.blocks;
   round.blocks.insert(round.blocks.end(), again.blocks.begin(), again.blocks.end());
   round.points.push_back(lap.front());

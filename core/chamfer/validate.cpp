@@ -111,9 +111,6 @@ void validate(const Job& job) {
   }
   if (job.end_position) require_point("/end_position", *job.end_position);
   require("/output/decimals", job.decimals, 1, 6, "");
-  if (job.arcs && job.points) {
-    refuse("/points", std::to_string(*job.points), "absent with arcs: they follow the tolerance");
-  }
 }
 
 }  // namespace ridgeline::chamfer

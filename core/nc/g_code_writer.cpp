@@ -166,7 +166,7 @@ private:
       blocks_.block("CYCLE800(1,\"\",0,57,0,0,0," + a + "," + b + "," + c + ",0,0,0,-1,0,1)");
       return;
     }
-    const auto [i, j, k] = angles_text(euler_angles(nominal_plane(axis)), euler_decimals);
+    const auto [i, j, k] = angles_text(euler_angles(path::tilted_axes(axis)), euler_decimals);
     blocks_.block("G91 G28 Z0.");  // clear of the part before the rotary axes turn
     blocks_.block("G90");
     blocks_.block("G68.2 X0. Y0. Z0. I" + i + " J" + j + " K" + k);

@@ -64,7 +64,7 @@ private:
   }
 
   void tilt() {
-    const PlaneVectors vectors = plane_vectors(nominal_plane(program_.tool_axis.normalized()));
+    const PlaneVectors vectors = plane_vectors(path::tilted_axes(program_.tool_axis.normalized()));
     std::string plane = "PLANE VECTOR";
     const auto add = [&](char letter, const std::array<std::int64_t, 3>& vector) {
       for (std::size_t n = 0; n < 3; ++n) {

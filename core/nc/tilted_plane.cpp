@@ -6,12 +6,12 @@
 #include "core/base/angle.hpp"
 #include "core/nc/plan.hpp"
 #include "core/nc/text.hpp"
+#include "core/path/arc.hpp"
 
 namespace ridgeline::nc {
 namespace {
 
-/// A tool axis this near to a machine axis is that axis [rad]: less than 1e-5 mm over 100 mm.
-constexpr double machine_axis_angle = 1e-7;
+constexpr double least_turn = 1e-7;  ///< of J [rad]; below, I and K are about the same axis
 
 Eigen::Matrix3d rotation(double degrees, int axis) {
   return Eigen::AngleAxisd(radians(degrees), Eigen::Vector3d::Unit(axis)).toRotationMatrix();
@@ -34,18 +34,11 @@ Eigen::Vector3d as_vector(const std::array<std::int64_t, 3>& units, int decimals
 
 }  // namespace
 
-Eigen::Matrix3d nominal_plane(const Eigen::Vector3d& axis) {
-  // Rx(A) Ry(B) e_z = (sin B, -sin A cos B, cos A cos B)
-  const double B = std::asin(std::clamp(axis.x(), -1.0, 1.0));
-  const double A = std::atan2(-axis.y(), axis.z());
-  return rotation(degrees(A), 0) * rotation(degrees(B), 1);
-}
-
 std::array<std::int64_t, 3> euler_angles(const Eigen::Matrix3d& R) {
   // Rz(I) Rx(J) Rz(K): third column (sin I sin J, -cos I sin J, cos J), third row likewise in K.
   const double sin_J = std::hypot(R(0, 2), R(1, 2));
   const double J = std::atan2(sin_J, R(2, 2));
-  const bool regular = sin_J > machine_axis_angle;
+  const bool regular = sin_J > least_turn;
   const double I = regular ? std::atan2(R(0, 2), -R(1, 2)) : std::atan2(R(1, 0), R(0, 0));
   const double K = regular ? std::atan2(R(2, 0), R(2, 1)) : 0;
   return {in_units(degrees(I), euler_decimals), in_units(degrees(J), euler_decimals),
@@ -85,12 +78,7 @@ Eigen::Matrix3d plane_of_vectors(const Eigen::Vector3d& base, const Eigen::Vecto
 }
 
 bool is_tilted(const Program& program) {
-  const Eigen::Vector3d axis = program.tool_axis.normalized();
-  for (int n = 0; n < 3; ++n) {
-    const Eigen::Vector3d across = axis - axis[n] * Eigen::Vector3d::Unit(n);
-    if (across.norm() <= machine_axis_angle) return false;
-  }
-  return true;
+  return !path::machine_axis(program.tool_axis.normalized());
 }
 
 int length_axis(const Program& program) {
@@ -108,11 +96,11 @@ Eigen::Matrix3d plane_axes(const Program& program) {
     return plane_of_swivel(as_numbers(swivel_angles(axis), swivel_decimals));
   }
   if (program.dialect == Dialect::Heidenhain) {
-    const PlaneVectors vectors = plane_vectors(nominal_plane(axis));
+    const PlaneVectors vectors = plane_vectors(path::tilted_axes(axis));
     return plane_of_vectors(as_vector(vectors.base, vector_decimals),
                             as_vector(vectors.normal, vector_decimals));
   }
-  return plane_of_euler(as_numbers(euler_angles(nominal_plane(axis)), euler_decimals));
+  return plane_of_euler(as_numbers(euler_angles(path::tilted_axes(axis)), euler_decimals));
 }
 
 }  // namespace ridgeline::nc

@@ -9,9 +9,6 @@
 /// The tilted work plane in each control's own numbers. Used by writers and readers.
 namespace ridgeline::nc {
 
-/// Rx(A) Ry(B) with its Z along `axis` (unit).
-Eigen::Matrix3d nominal_plane(const Eigen::Vector3d& axis);
-
 /// FANUC G68.2 I J K: Euler angles, Rz(I) Rx(J) Rz(K) [0.001 degree].
 inline constexpr int euler_decimals = 3;
 std::array<std::int64_t, 3> euler_angles(const Eigen::Matrix3d& plane);

@@ -1,5 +1,6 @@
 #include "core/path/arc.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -32,7 +33,27 @@ int arc_steps(const ArcShape& arc, double tolerance) {
   return std::max(1, static_cast<int>(steps));
 }
 
+/// A tool axis this near to a machine axis is that axis [rad].
+constexpr double machine_axis_angle = 1e-7;
+
 }  // namespace
+
+std::optional<int> machine_axis(const Eigen::Vector3d& tool_axis) {
+  for (int n = 0; n < 3; ++n) {
+    const Eigen::Vector3d across = tool_axis - tool_axis[n] * Eigen::Vector3d::Unit(n);
+    if (across.norm() <= machine_axis_angle) return n;
+  }
+  return std::nullopt;
+}
+
+Eigen::Matrix3d tilted_axes(const Eigen::Vector3d& tool_axis) {
+  // Rx(A) Ry(B) e_z = (sin B, -sin A cos B, cos A cos B)
+  const double B = std::asin(std::clamp(tool_axis.x(), -1.0, 1.0));
+  const double A = std::atan2(-tool_axis.y(), tool_axis.z());
+  return (Eigen::AngleAxisd(A, Eigen::Vector3d::UnitX()) *
+          Eigen::AngleAxisd(B, Eigen::Vector3d::UnitY()))
+      .toRotationMatrix();
+}
 
 ArcShape arc_shape(const Eigen::Vector3d& from, const Move& move) {
   if (!move.arc) throw Error(ErrorCode::BadInput, "the move has no arc");

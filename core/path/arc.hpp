@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "core/path/motion.hpp"
@@ -16,6 +17,13 @@ constexpr PlaneAxes axes_of(ArcPlane plane) {
   if (plane == ArcPlane::YZ) return {1, 2, 0};
   return {0, 1, 2};
 }
+
+/// The machine axis that a tool axis (unit) lies along, either way: 0 X, 1 Y, 2 Z, within 1e-7 rad,
+/// which is less than 1e-5 mm over 100 mm; nullopt: it is tilted.
+std::optional<int> machine_axis(const Eigen::Vector3d& tool_axis);
+
+/// Axes of a tilted work plane, as columns: Rx(A) Ry(B) with its third along `tool_axis` (unit).
+Eigen::Matrix3d tilted_axes(const Eigen::Vector3d& tool_axis);
 
 /// A move's arc made explicit: angle, radius and height go linearly with t in [0, 1]. The radii
 /// differ where the centre is rounded; a control goes the same spiral.

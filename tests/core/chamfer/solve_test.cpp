@@ -1,14 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <ostream>
 
-#include "core/chamfer/job.hpp"
 #include "core/chamfer/loop.hpp"
-#include "core/verify/measure.hpp"
+#include "tests/core/chamfer/cross_hole.hpp"
 
 namespace ridgeline::chamfer {
 namespace {
@@ -17,43 +17,6 @@ using Eigen::Vector3d;
 using geometry::EdgeKind;
 using geometry::Side;
 using path::MoveKind;
-
-/// Bore 20, hole 8, axis offset 3, lollipop 5.8, as a commercial path service orders it; edge
-/// break 0.3.
-Job cross_hole() {
-  Job job;
-  job.workpiece.inner_radius = 10;
-  job.workpiece.outer_radius = 16;
-  job.workpiece.length = 60;
-  geometry::Hole hole;
-  hole.name = "H1";
-  hole.profile.R2 = 4;
-  hole.position = {3, 0, 0};
-  job.workpiece.holes = {hole};
-  job.hole = "H1";
-  job.tool.radius = 2.9;
-  job.tool.neck_radius = 1.2;
-  job.tool.neck_length = 60;
-  job.tool.shank_radius = 1.2;
-  job.tool.stickout = 70;
-  job.tool.holder_radius = 15;
-  job.width = 0.3 * std::numbers::sqrt2;
-  job.overlap = 0.1;
-  return job;
-}
-
-verify::Report measured(const Job& job, const Result& result) {
-  verify::Subject subject;
-  subject.workpiece = job.workpiece;
-  subject.edge = geometry::edge_of(job.workpiece, job.workpiece.holes[0], job.edge, job.side);
-  subject.tool = job.tool;
-  subject.tool_axis = result.tool_axis;
-  subject.control_to_centre =
-      job.control_point == ControlPoint::Tip ? tool::cutting_radius(job.tool) : 0;
-  subject.width = job.width;
-  subject.clearance = job.clearance;
-  return verify::measure(subject, result.motion);
-}
 
 struct Way {
   const char* name;
@@ -157,6 +120,19 @@ INSTANTIATE_TEST_SUITE_P(
             },
             {0, 0, 1}},
         Way{"arcs", [](Job& job) { job.arcs = true; }, {0, 0, 1}},
+        Way{"arcs_in_a_tilted_plane",
+            [](Job& job) {
+              job.arcs = true;
+              job.tool_axis = Vector3d(0, 0.05, 1);
+            },
+            Vector3d(0, 0.05, 1).normalized()},
+        Way{"arcs_of_the_work_frame_about_a_tilted_tool",
+            [](Job& job) {
+              job.arcs = true;
+              job.arc_frame = ArcFrame::WorkFrame;
+              job.tool_axis = Vector3d(0, 0.05, 1);
+            },
+            Vector3d(0, 0.05, 1).normalized()},
         Way{"slot",
             [](Job& job) {
               job.workpiece.holes[0].profile = {3.5, 6, 0};
@@ -292,30 +268,6 @@ TEST(Solve, EndPositionIsReachedFromAbove) {
   EXPECT_GE(above.z(), 16 + job.clearance);
 }
 
-// The arcs end on the ideal path: where lines need 0.005, their blocks are fewer, and the width
-// stays within what lines of the same tolerance cut.
-TEST(Solve, ArcsNeedFewerBlocksThanLines) {
-  Job job = cross_hole();
-  job.workpiece.inner_radius = 40;
-  job.workpiece.outer_radius = 50;
-  job.workpiece.holes[0].position = {0, 0, 0};
-  job.tolerance = 0.002;
-  const Result lines = solve(job);
-  job.arcs = true;
-  const Result arcs = solve(job);
-  EXPECT_LE(arcs.centres.size() * 3, lines.centres.size());
-  EXPECT_LE(arcs.chord_error, job.tolerance);
-  int round = 0;
-  for (const path::Move& move : arcs.motion.moves) {
-    round += move.kind == MoveKind::Cut && move.arc ? 1 : 0;
-  }
-  EXPECT_GT(round, 10);
-  const verify::Report report = measured(job, arcs);
-  EXPECT_NEAR(report.width_max, job.width, 0.006);
-  EXPECT_NEAR(report.width_min, job.width, 0.006);
-  EXPECT_EQ(report.overcut, 0);
-}
-
 struct Refused {
   const char* name;
   std::function<void(Job&)> spoil;
@@ -373,18 +325,6 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"no_clearance", [](Job& j) { j.clearance = 0; }, ErrorCode::BadInput, "/clearance"},
         Refused{"nan_end", [](Job& j) { j.end_position = Vector3d(0, nan, 0); },
                 ErrorCode::BadInput, "/end_position"},
-        Refused{"arcs_of_chosen_points",
-                [](Job& j) {
-                  j.arcs = true;
-                  j.points = 90;
-                },
-                ErrorCode::BadInput, "/points"},
-        Refused{"arcs_about_a_tilted_axis",
-                [](Job& j) {
-                  j.arcs = true;
-                  j.tool_axis = Vector3d(0, 0.1, 1);
-                },
-                ErrorCode::Unsupported, "/output/arcs"},
         Refused{"no_such_hole", [](Job& j) { j.hole = "H7"; }, ErrorCode::UnknownHole, "/hole"},
         Refused{"ball_wider_than_the_hole",
                 [](Job& j) {
