@@ -9,6 +9,7 @@
 #include <iostream>
 #include <thread>
 
+#include "clients/manual/manual.hpp"
 #include "core/base/version.hpp"
 #include "service/log.hpp"
 #include "service/server.hpp"
@@ -35,8 +36,9 @@ std::string default_instance() {
 
 void declare(CLI::App& app, Options& options) {
   app.add_option("--library", options.library,
-                 "File of the named workpieces, tools, ... (default: " +
-                     service::default_library_file().string() + ")");
+                 "File of the named workpieces, tools, ... (default: ridgeline/library.db in "
+                 "$XDG_DATA_HOME or ~/.local/share)")
+      ->type_name("FILE");
   app.add_option("--instance", options.server.instance,
                  "Name of this instance on the network (default: host name and process)")
       ->envname("RIDGELINE_INSTANCE")
@@ -141,6 +143,7 @@ int main(int argc, char** argv) {
                "ridgelined");
   app.set_version_flag("--version", "ridgelined " + std::string(version()));
   declare(app, options);
+  manual::add_manual_option(app, {8, "\\fBridgeline\\fR(1), /usr/share/doc/ridgeline"});
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -19,6 +19,8 @@ struct Arguments {
   std::optional<int> revision;
 };
 
+constexpr const char* kinds = "{workpiece,tool,material,part}";
+
 Outcome ask(const Session& session, Json job) {
   job["job"] = "library";
   return outcome_of(session.ask(job.dump(), "json"), "json");
@@ -40,8 +42,12 @@ void add_file(CLI::App& command, Arguments& arguments, const char* what) {
 }
 
 void add_key(CLI::App& command, Arguments& arguments) {
-  command.add_option("KIND", arguments.kind, "workpiece, tool, material or part")->required();
-  command.add_option("NAME", arguments.name, "Name, or number of a tool")->required();
+  command.add_option("KIND", arguments.kind, "workpiece, tool, material or part")
+      ->required()
+      ->type_name(kinds);
+  command.add_option("NAME", arguments.name, "Name, or number of a tool")
+      ->required()
+      ->type_name("NAME");
 }
 
 Json key(const Arguments& arguments) {
@@ -107,7 +113,8 @@ void add_library_commands(CLI::App& app, Selected& selected) {
   add_key(get_command, *arguments);
   get_command.add_option("--revision", arguments->revision, "That revision instead of the latest");
   const auto optional_kind = [&](CLI::App& command) {
-    command.add_option("KIND", arguments->kind, "Only workpiece, tool, material or part");
+    command.add_option("KIND", arguments->kind, "Only workpiece, tool, material or part")
+        ->type_name(kinds);
   };
   optional_kind(add(*library, selected, arguments, "list", "List names and revisions",
                     [](const Session& s, const Arguments& a) { return with_kind(s, "list", a); }));

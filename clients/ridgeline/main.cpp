@@ -5,6 +5,7 @@
 #include <csignal>
 #include <memory>
 
+#include "clients/manual/manual.hpp"
 #include "clients/ridgeline/commands.hpp"
 #include "clients/ridgeline/files.hpp"
 #include "core/base/version.hpp"
@@ -76,6 +77,7 @@ int run(int argc, char** argv) {
   add_batch_command(app, selected);
   add_units_commands(app, selected);
   add_status_command(app, selected);
+  manual::add_manual_option(app, {1, "\\fBridgelined\\fR(8), /usr/share/doc/ridgeline"});
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

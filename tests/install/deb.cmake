@@ -8,7 +8,9 @@ file(GLOB libraries ${WORK}/libridgeline-dev_${VERSION}_*.deb)
 
 run(said dpkg-deb --contents ${programs})
 foreach(file IN ITEMS
-    ./usr/bin/ridgeline ./usr/bin/ridgelined ./usr/libexec/ridgeline/ridgeline-step ./usr/lib/systemd/system/ridgelined.service ./usr/share/doc/ridgeline/README.md)
+    ./usr/bin/ridgeline ./usr/bin/ridgelined ./usr/libexec/ridgeline/ridgeline-step
+    ./usr/lib/systemd/system/ridgelined.service
+    ./usr/share/man/man1/ridgeline.1 ./usr/share/zsh/vendor-completions/_ridgeline ./usr/share/doc/ridgeline/README.md)
   require_match("${said}" "root/root [^\n]* ${file}\n")
 endforeach()
 if(said MATCHES "[.]hpp")

@@ -9,6 +9,8 @@ foreach(file IN ITEMS
     include/ridgeline/core/chamfer/job.hpp
     ${LIBDIR}/libridgeline_chamfer.a ${LIBDIR}/cmake/Ridgeline/RidgelineConfig.cmake
     lib/systemd/system/ridgelined.service
+    share/man/man1/ridgeline.1 share/man/man8/ridgelined.8
+    share/bash-completion/completions/ridgeline share/zsh/site-functions/_ridgeline
     share/doc/ridgeline/README.md share/doc/ridgeline/CHANGELOG.md share/doc/ridgeline/docs/dds.md
     share/ridgeline/config/network.xml share/ridgeline/examples/valve_port.json
     share/ridgeline/examples/controller/controller.c share/ridgeline/idl/ridgeline.idl)
