@@ -20,6 +20,14 @@ namespace {
 
 using Json = nlohmann::json;
 
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool has_shadow_memory = true;
+#elif defined(__has_feature)
+constexpr bool has_shadow_memory = __has_feature(address_sanitizer);
+#else
+constexpr bool has_shadow_memory = false;
+#endif
+
 std::string everything(int descriptor) {
   std::string text;
   std::array<char, 65536> buffer;
@@ -49,11 +57,10 @@ void limit(const Json& wish) {
   const auto seconds = static_cast<rlim_t>(wish.value("seconds", 120.0)) + 1;
   const rlimit time{seconds, seconds};
   setrlimit(RLIMIT_CPU, &time);
-#if !defined(__SANITIZE_ADDRESS__)  // its shadow memory counts
+  if (has_shadow_memory) return;  // it counts
   const auto bytes = static_cast<rlim_t>(wish.value("gigabytes", 4.0) * 1e9);
   const rlimit memory{bytes, bytes};
   setrlimit(RLIMIT_DATA, &memory);
-#endif
 }
 
 /// Standard output for us alone: what Open CASCADE prints goes to standard error.
