@@ -38,15 +38,27 @@ function answerOf(chromium, text, folder, size, options) {
       server.close();
       server.closeAllConnections();
       browser.once('exit', then);
-      browser.kill('SIGKILL');
+      process.kill(-browser.pid, 'SIGKILL');  // all of its processes
     };
     server.listen(0, '127.0.0.1', () => {
       browser = spawn(chromium, ['--headless=new', '--no-sandbox', '--disable-dev-shm-usage', '--no-first-run',
         '--use-angle=swiftshader', '--enable-unsafe-swiftshader', `--user-data-dir=${join(folder, 'profile')}`,
-        `--window-size=${size}`, ...options, `http://127.0.0.1:${server.address().port}/`], {stdio: 'ignore'});
+        `--window-size=${size}`, ...options, `http://127.0.0.1:${server.address().port}/`],
+      {stdio: 'ignore', detached: true});  // a process group of its own
       browser.once('error', reject);
     });
   });
+}
+
+/** Removes a profile, into which a dying process may write once more. What stays after a second harms no test. */
+async function remove(folder) {
+  for (let attempt = 0; attempt < 20; ++attempt) {
+    try {
+      return rmSync(folder, {recursive: true, force: true});
+    } catch {
+      await new Promise((done) => setTimeout(done, 50));
+    }
+  }
 }
 
 /** Runs `probe` (an async function in the page; its value must be JSON) after the page has loaded. */
@@ -63,6 +75,6 @@ export async function inBrowser(chromium, page, probe, {size = '1280,900', optio
   try {
     return await answerOf(chromium, text, folder, size, options);
   } finally {
-    rmSync(folder, {recursive: true, force: true, maxRetries: 10, retryDelay: 200});
+    await remove(folder);
   }
 }
