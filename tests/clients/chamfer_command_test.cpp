@@ -144,7 +144,7 @@ TEST(Chamfer, MovesAddUpToTheReport) {
 }
 
 TEST(Chamfer, ProgramPassesItsOwnVerification) {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const char* name :
        {"inline", "valve_port", "tube_outer", "slot_two_passes", "drain_oblique"}) {
     SCOPED_TRACE(name);
@@ -166,7 +166,7 @@ TEST(Chamfer, ProgramPassesItsOwnVerification) {
 
 // A hole 0.05 mm beside the program: one side is cut wider, the other narrower.
 TEST(Chamfer, ShiftedProgramFailsVerificationByItsWidth) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string nc = chamfer(source_case(), {"--format", "nc"}).out;
   Json elsewhere = source_case();
   elsewhere["workpiece"]["holes"][0]["position"] = {0.05, 0, 0};
@@ -182,7 +182,7 @@ TEST(Chamfer, ShiftedProgramFailsVerificationByItsWidth) {
 }
 
 TEST(Chamfer, FormatsGoToTheFileAlone) {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const char* format : {"nc", "cl", "csv", "svg", "json"}) {
     const std::string file = folder.file(std::string("result.") + format);
     const Finished finished = chamfer(source_case(), {"--format", format, "-o", file});
@@ -193,7 +193,7 @@ TEST(Chamfer, FormatsGoToTheFileAlone) {
 }
 
 TEST(Chamfer, NamesGiveTheRevisionsUsed) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string library = folder.file("library.db");
   ridgeline(
       {"library", "import", "clients/examples/library.json", "--local", "--library", library});

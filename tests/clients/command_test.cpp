@@ -43,7 +43,7 @@ TEST(Command, WrongUsageLeavesStandardOutputEmpty) {
 }
 
 TEST(Command, FilesThatCannotBeReadAreAnErrorObjectAndStatus2) {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const std::string& path : {folder.file("absent.json"), folder.file("")}) {
     const Finished finished = ridgeline({"chamfer", path, "--local"});
     EXPECT_EQ(finished.status, usage);
@@ -83,7 +83,7 @@ TEST(Command, QuietSaysNothingOnStandardError) {
 }
 
 TEST(Command, RefusedJobsLeaveTheOldResultFile) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("O9101.nc", "old");
   const Finished finished =
       ridgeline({"chamfer", "-", "--local", "-o", file}, R"({"job": "camfer"})");

@@ -18,7 +18,7 @@ protected:
     arguments.insert(arguments.end(), {"--local", "--library", folder_.file("library.db")});
     return ridgeline(arguments, in);
   }
-  Folder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(LibraryCommand, PutMakesRevisionsThatGetPrints) {

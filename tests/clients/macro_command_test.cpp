@@ -123,7 +123,7 @@ TEST(MacroCommand, TraceTellsWhatEveryBlockAssigned) {
 }
 
 TEST(MacroCommand, EveryFormatGoesToItsFile) {
-  const Folder files;
+  const TemporaryFolder files;
   for (const char* format : {"json", "nc", "csv", "svg", "trace"}) {
     const std::string file = files.file(std::string("run.") + format);
     const Finished finished =
@@ -153,7 +153,7 @@ TEST(MacroCommand, CheckNamesRuleAndPlace) {
 
 // What make writes, run by its own call, moves as make computes.
 TEST(MacroCommand, MadeProgramMovesAsMadeMotion) {
-  const Folder files;
+  const TemporaryFolder files;
   const Finished made = macro({"make", taper, "--format", "nc", "-o", files.file("O9801.nc")});
   ASSERT_EQ(made.status, 0) << made.err;
   const std::string text = read(files.file("O9801.nc"));

@@ -11,7 +11,7 @@ using Json = nlohmann::json;
 
 // The shop of the examples, in a file of its own.
 struct Shop {
-  Folder folder;
+  TemporaryFolder folder;
   std::string library = folder.file("library.db");
   Shop() {
     const Finished imported = ridgeline(

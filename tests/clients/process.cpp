@@ -5,8 +5,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -41,22 +39,6 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
 
 }  // namespace
 
-Folder::Folder() {
-  std::string name = (std::filesystem::temp_directory_path() / "ridgeline-XXXXXX").string();
-  require(::mkdtemp(name.data()) != nullptr, "mkdtemp");
-  path_ = name;
-}
-
-Folder::~Folder() {
-  std::error_code ignored;  // a folder that stays behind harms no test
-  std::filesystem::remove_all(path_, ignored);
-}
-
-std::string Folder::write(const std::string& name, const std::string& text) const {
-  std::ofstream(file(name), std::ios::binary) << text;
-  return file(name);
-}
-
 std::string read(const std::string& path) {
   const std::ifstream stream(path, std::ios::binary);
   require(stream.good(), "a file to read");
@@ -71,7 +53,7 @@ Finished ridgeline(const std::vector<std::string>& arguments, const std::string&
 
 Finished run(const std::string& program, const std::vector<std::string>& arguments,
              const std::string& in) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string in_file = folder.write("in", in);
   std::vector<std::string> texts = {"ridgeline"};
   texts.insert(texts.end(), arguments.begin(), arguments.end());

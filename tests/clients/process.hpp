@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace ridgeline::tests {
 
 /// What a finished process left.
@@ -22,21 +24,6 @@ Finished ridgeline(const std::vector<std::string>& arguments, const std::string&
 /// The same by another copy of the program.
 Finished run(const std::string& program, const std::vector<std::string>& arguments,
              const std::string& in = {});
-
-/// A folder of its own for each test, removed with it.
-class Folder {
-public:
-  Folder();
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder();
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
-  /// Writes a file and returns its path.
-  std::string write(const std::string& name, const std::string& text) const;
-
-private:
-  std::string path_;
-};
 
 std::string read(const std::string& path);
 

@@ -17,7 +17,7 @@ Finished units(std::vector<std::string> arguments, const std::string& in = {}) {
 
 // The walk of docs/units.md, on its example files.
 TEST(UnitsCommand, PlansShowsEditsUndoesAndWrites) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string program = folder.file("program.json");
   const Finished planned = units({"plan", "clients/examples/units_shaft.json", "-o", program});
   ASSERT_EQ(planned.status, 0) << planned.err;
@@ -42,7 +42,7 @@ TEST(UnitsCommand, PlansShowsEditsUndoesAndWrites) {
 }
 
 TEST(UnitsCommand, FilesThatAreNoneAreToldApartFromJobsThatAreRefused) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string step = folder.write("part.step", "solid\n");
   const std::string job = folder.write("job.json", R"({"job": "units", "product": "part.step"})");
   const Finished refused = units({"plan", job});
@@ -70,7 +70,7 @@ TEST(UnitsCommand, TheReaderOfStepFilesIsAProgramOfItsOwn) {
 
 TEST(UnitsCommand, ReadsStepFilesWhereItIsInstalledAndSaysWhatIsMissing) {
   namespace fs = std::filesystem;
-  const Folder folder;
+  const TemporaryFolder folder;
   fs::create_directories(folder.file("bin"));
   fs::create_directories(folder.file("libexec/ridgeline"));
   const std::string moved = folder.file("bin/ridgeline");
@@ -89,7 +89,7 @@ TEST(UnitsCommand, ReadsStepFilesWhereItIsInstalledAndSaysWhatIsMissing) {
 }
 
 TEST(UnitsCommand, HoleEdgesOfAPartBecomeWorkpiecesAndJobs) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string library = folder.file("library.db");
   const std::string part = "tests/parts/own_cross_tube.step";
   const Finished imported = ridgeline({"library", "import", part, "--local", "--library", library});

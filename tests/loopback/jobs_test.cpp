@@ -4,10 +4,10 @@
 #include <thread>
 
 #include "jobs/answer.hpp"
-#include "ridgeline.h"
 #include "service/library.hpp"
 #include "service/library_job.hpp"
 #include "tests/loopback/network.hpp"
+#include "tests/support/typed_chamfer.hpp"
 
 namespace ridgeline {
 namespace {
@@ -90,27 +90,17 @@ TEST_F(LoopbackJobs, ByNameAndInlineGiveTheSamePath) {
   EXPECT_EQ(named.at("moves"), inline_.at("moves"));
 }
 
-ridgeline_wire_ChamferJob typed() {
-  static char tube[] = "tube-40", hole[] = "H1", tool[] = "12", none[] = "";
-  ridgeline_wire_ChamferJob chamfer{};
-  chamfer.workpiece = tube;
-  chamfer.hole = hole;
-  chamfer.tool = tool;
-  chamfer.tool_axis = chamfer.dialect = chamfer.work_offset = none;
-  chamfer.width = 0.5;
+TEST_F(LoopbackJobs, TypedAndJsonGiveTheSamePath) {
+  ridgeline_wire_ChamferJob chamfer = typed_chamfer();
   chamfer.given = ridgeline_wire_GIVEN_POINTS;
   chamfer.points = 72;
-  return chamfer;
-}
-
-TEST_F(LoopbackJobs, TypedAndJsonGiveTheSamePath) {
-  const jobs::Answer answer = client_->ask(typed(), "json");
+  const jobs::Answer answer = client_->ask(chamfer, "json");
   EXPECT_TRUE(lasting(answer) == lasting(client_->ask(by_name().dump(), "json")));
-  ridgeline_wire_ChamferJob wrong = typed();
+  ridgeline_wire_ChamferJob wrong = chamfer;
   char other[] = "13";
   wrong.tool = other;
   EXPECT_EQ(code(client_->ask(wrong, "json")), "unknown_tool");
-  wrong = typed();
+  wrong = chamfer;
   wrong.width = 50;
   EXPECT_EQ(code(client_->ask(wrong, "json")), "width_too_large");
 }

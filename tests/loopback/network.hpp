@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "clients/client.hpp"
-#include "tests/service/folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace ridgeline {
 
@@ -58,8 +58,15 @@ protected:
   }
 
   unsigned domain_ = 0;
-  Folder folder_;
+  TemporaryFolder folder_;
 };
+
+/// Jobs that several tests ask for.
+inline constexpr char put_tube[] = R"({"job": "library", "operation": "put", "definition":
+  {"kind": "workpiece", "name": "tube-40", "shape": "thick_walled_cylinder", "inner_radius": 20,
+   "outer_radius": 30, "length": 100,
+   "holes": [{"name": "H1", "shape": "circle", "radius": 5}]}})";
+inline constexpr char list[] = R"({"job": "library", "operation": "list"})";
 
 /// "ok", or the error's code.
 std::string code(const jobs::Answer& answer);

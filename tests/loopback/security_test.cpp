@@ -13,7 +13,6 @@ using client::Client;
 
 constexpr char put_tool[] = R"({"job": "library", "operation": "put", "definition":
   {"kind": "tool", "number": 12, "name": "b6", "shape": "ball", "radius": 3}})";
-constexpr char list[] = R"({"job": "library", "operation": "list"})";
 
 /// A secured service, and identities to take on one after the other.
 class LoopbackSecurity : public Loopback {

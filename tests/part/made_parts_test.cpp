@@ -10,13 +10,16 @@
 #include <Interface_Static.hxx>
 #include <STEPControl_Writer.hxx>
 #include <TopoDS_Compound.hxx>
+#include <fstream>
 #include <gp_Ax2.hxx>
 #include <numbers>
+#include <sstream>
 
 #include "core/base/error.hpp"
 #include "part/product.hpp"
 #include "part/step.hpp"
 #include "tests/part/parts.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace ridgeline::part {
 namespace {
@@ -31,14 +34,11 @@ std::string step_of(const std::vector<TopoDS_Shape>& shapes, const char* unit = 
   STEPControl_Writer writer;
   writer.Transfer(shapes.size() == 1 ? shapes.front() : TopoDS_Shape(compound), STEPControl_AsIs);
   Interface_Static::SetCVal("write.step.unit", "MM");
-  std::string folder = (std::filesystem::temp_directory_path() / "part-XXXXXX").string();
-  if (mkdtemp(folder.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  const std::filesystem::path file = std::filesystem::path(folder) / "part.step";
-  writer.Write(file.c_str());
-  std::ifstream in(file, std::ios::binary);
+  const TemporaryFolder folder;
+  writer.Write(folder.file("part.step").c_str());
+  std::ifstream in(folder / "part.step", std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
-  std::filesystem::remove_all(folder);
   return text.str();
 }
 

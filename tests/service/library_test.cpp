@@ -10,7 +10,7 @@
 #include <fstream>
 #include <thread>
 
-#include "tests/service/folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace ridgeline::service {
 namespace {
@@ -121,7 +121,7 @@ TEST(Library, TheSameRequestTwiceChangesOnce) {
 }
 
 TEST(Library, IsKeptInTheFile) {
-  const Folder folder;
+  const TemporaryFolder folder;
   {
     Library library(folder / "deep/er/library.db");
     library.put(tube("t"));
@@ -132,7 +132,7 @@ TEST(Library, IsKeptInTheFile) {
 }
 
 TEST(Library, TwoWritersOfOneFileLoseNothing) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto write = [&](int writer) {
     Library library(folder / "library.db");
     for (int i = 1; i <= 30; ++i) {
@@ -152,7 +152,7 @@ TEST(Library, TwoWritersOfOneFileLoseNothing) {
 
 // The child puts and tells each acknowledged revision; it is killed somewhere in a put.
 TEST(Library, AnAcknowledgedPutSurvivesKill) {
-  const Folder folder;
+  const TemporaryFolder folder;
   int total = 0;
   for (int round = 0; round < 10; ++round) {
     int pipe_ends[2];
@@ -192,7 +192,7 @@ TEST(Library, AnAcknowledgedPutSurvivesKill) {
 }
 
 TEST(Library, AFullDiskIsNamedAndWhatWasThereStays) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::filesystem::path file = folder / "library.db";
   const pid_t child = fork();
   ASSERT_GE(child, 0);
@@ -223,7 +223,7 @@ TEST(Library, AFullDiskIsNamedAndWhatWasThereStays) {
 }
 
 TEST(Library, ReportsAnotherFileByName) {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::ofstream(folder / "text.db") << std::string(5000, 'x');
   EXPECT_EQ(error_of([&] { Library library(folder / "text.db"); }).code(), ErrorCode::Storage);
   EXPECT_EQ(error_of([&] { Library library(folder / "text.db/below.db"); }).code(),
@@ -237,7 +237,7 @@ TEST(Library, ReportsAnotherFileByName) {
 }
 
 TEST(Library, ADamagedPageIsReportedAndTheRestIsRead) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::filesystem::path file = folder / "library.db";
   constexpr int count = 300;
   {
@@ -262,7 +262,7 @@ TEST(Library, ADamagedPageIsReportedAndTheRestIsRead) {
 }
 
 TEST(Library, AFlippedByteIsNotTakenForADefinition) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::filesystem::path file = folder / "library.db";
   {
     Library library(file);
@@ -328,7 +328,7 @@ TEST(LibraryMerge, ARepeatedRequestIsKnownWhereItsChangeArrived) {
 }
 
 TEST(LibraryMerge, HealsADamagedRecord) {
-  const Folder folder;
+  const TemporaryFolder folder;
   Library good(":memory:");
   good.put(tube("t"));
   Library library(folder / "library.db");
