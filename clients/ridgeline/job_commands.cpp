@@ -1,9 +1,9 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <vector>
 
 #include "clients/ridgeline/commands.hpp"
 #include "clients/ridgeline/files.hpp"
+#include "clients/ridgeline/subcommand.hpp"
 #include "jobs/parse.hpp"
 
 namespace ridgeline::command {
@@ -25,12 +25,6 @@ struct Arguments {
   std::string format = "json";
 };
 
-void add_output(CLI::App& command, Selected& selected) {
-  command
-      .add_option("-o,--output", selected.output, "File for the result (default: standard output)")
-      ->type_name("FILE");
-}
-
 Outcome run_file(const Session& session, const Arguments& arguments) {
   const std::string text = read_file(arguments.job);
   jobs::parse(text);  // what is not JSON is an unusable file, not a refused job
@@ -38,18 +32,13 @@ Outcome run_file(const Session& session, const Arguments& arguments) {
 }
 
 void add_job_command(CLI::App& app, Selected& selected, const JobCommand& job) {
-  CLI::App* command = app.add_subcommand(job.name, job.summary);
   const auto arguments = std::make_shared<Arguments>();
-  command->add_option("JOB", arguments->job, "Job file (JSON), or - for standard input")
-      ->required();
-  command->add_option("--format", arguments->format, "What to print")
+  CLI::App& command = add_subcommand(app, selected, arguments, job.name, job.summary, run_file);
+  command.add_option("JOB", arguments->job, "Job file (JSON), or - for standard input")->required();
+  command.add_option("--format", arguments->format, "What to print")
       ->check(CLI::IsMember(job.formats))
       ->capture_default_str();
-  add_output(*command, selected);
-  command->footer(job.footer);
-  command->callback([&selected, arguments] {
-    selected.run = [arguments](const Session& session) { return run_file(session, *arguments); };
-  });
+  command.footer(job.footer);
 }
 
 Outcome run_verify(const Session& session, const Arguments& arguments) {
@@ -61,22 +50,19 @@ Outcome run_verify(const Session& session, const Arguments& arguments) {
 }
 
 void add_verify(CLI::App& app, Selected& selected) {
-  CLI::App* command =
-      app.add_subcommand("verify", "Measure an NC program against a chamfer job, whoever wrote it");
   const auto arguments = std::make_shared<Arguments>();
-  command->add_option("PROGRAM", arguments->program, "NC program, or - for standard input")
+  CLI::App& command =
+      add_subcommand(app, selected, arguments, "verify",
+                     "Measure an NC program against a chamfer job, whoever wrote it", run_verify);
+  command.add_option("PROGRAM", arguments->program, "NC program, or - for standard input")
       ->required();
-  command->add_option("--job", arguments->job, "Chamfer job that the program is to keep")
+  command.add_option("--job", arguments->job, "Chamfer job that the program is to keep")
       ->required()
       ->type_name("JOB.json");
-  add_output(*command, selected);
-  command->footer(
+  command.footer(
       "Measures the width of the chamfer all round, the deepest cut beside it, and the clearance "
       "of\n"
       "neck, shank, holder and rapids. Exit status 4 when the program does not keep the job.");
-  command->callback([&selected, arguments] {
-    selected.run = [arguments](const Session& session) { return run_verify(session, *arguments); };
-  });
 }
 
 Outcome run_expand(const Session& session, const Arguments& arguments) {
@@ -87,21 +73,21 @@ Outcome run_expand(const Session& session, const Arguments& arguments) {
 }
 
 void add_expand(CLI::App& app, Selected& selected) {
-  CLI::App* command =
-      app.add_subcommand("expand", "Replace macro calls in an NC program by computed motion");
   const auto arguments = std::make_shared<Arguments>();
   arguments->format = "nc";
-  command->add_option("PROGRAM", arguments->program, "NC program, or - for standard input")
+  CLI::App& command =
+      add_subcommand(app, selected, arguments, "expand",
+                     "Replace macro calls in an NC program by computed motion", run_expand);
+  command.add_option("PROGRAM", arguments->program, "NC program, or - for standard input")
       ->required();
   command
-      ->add_option("--binding", arguments->binding,
-                   "File (JSON) that says what macro numbers and letters mean")
+      .add_option("--binding", arguments->binding,
+                  "File (JSON) that says what macro numbers and letters mean")
       ->type_name("FILE");
-  command->add_option("--format", arguments->format, "What to print")
+  command.add_option("--format", arguments->format, "What to print")
       ->check(CLI::IsMember({"nc", "json"}))
       ->capture_default_str();
-  add_output(*command, selected);
-  command->footer(
+  command.footer(
       "Calls as G65 P9100 W1 H1 T12 Q0.35 E1 become the motion of a chamfer; all other bytes "
       "stay.\n"
       "Without a binding: W workpiece, H hole, T tool (numbers of the library), Q cutting amount "
@@ -110,9 +96,6 @@ void add_expand(CLI::App& app, Selected& selected) {
       "J\n"
       "inner and outer radius, K length, R hole radius, U eccentricity, A arrangement and B\n"
       "penetration angle, X Y Z position; C tolerance, D tool radius, F feed, M spindle speed.");
-  command->callback([&selected, arguments] {
-    selected.run = [arguments](const Session& session) { return run_expand(session, *arguments); };
-  });
 }
 
 }  // namespace

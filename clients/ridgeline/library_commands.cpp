@@ -1,10 +1,10 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "clients/ridgeline/commands.hpp"
 #include "clients/ridgeline/files.hpp"
+#include "clients/ridgeline/subcommand.hpp"
 #include "jobs/refuse.hpp"
 
 namespace ridgeline::command {
@@ -54,19 +54,6 @@ Json key(const Arguments& arguments) {
   return {{"kind", arguments.kind}, {"name", arguments.name}};
 }
 
-using Run = Outcome (*)(const Session&, const Arguments&);
-
-/// A subcommand of library; its options are added by the caller.
-CLI::App& add(CLI::App& library, Selected& selected, const std::shared_ptr<Arguments>& arguments,
-              const char* name, const char* summary, Run run) {
-  CLI::App* command = library.add_subcommand(name, summary);
-  command->add_option("-o,--output", selected.output, "File for the result")->type_name("FILE");
-  command->callback([&selected, arguments, run] {
-    selected.run = [arguments, run](const Session& session) { return run(session, *arguments); };
-  });
-  return *command;
-}
-
 Outcome put(const Session& session, const Arguments& arguments) {
   return ask(session, {{"operation", "put"}, {"definition", read_document(arguments.file)}});
 }
@@ -106,33 +93,36 @@ void add_library_commands(CLI::App& app, Selected& selected) {
       "revisions\n"
       "that they were computed from.");
   const auto arguments = std::make_shared<Arguments>();
-  add_file(add(*library, selected, arguments, "put", "Store one definition", put), *arguments,
-           "Definition (JSON), or - for standard input");
-  CLI::App& get_command =
-      add(*library, selected, arguments, "get", "Print a definition and its revision", get);
+  add_file(add_subcommand(*library, selected, arguments, "put", "Store one definition", put),
+           *arguments, "Definition (JSON), or - for standard input");
+  CLI::App& get_command = add_subcommand(*library, selected, arguments, "get",
+                                         "Print a definition and its revision", get);
   add_key(get_command, *arguments);
   get_command.add_option("--revision", arguments->revision, "That revision instead of the latest");
   const auto optional_kind = [&](CLI::App& command) {
     command.add_option("KIND", arguments->kind, "Only workpiece, tool, material or part")
         ->type_name(kinds);
   };
-  optional_kind(add(*library, selected, arguments, "list", "List names and revisions",
-                    [](const Session& s, const Arguments& a) { return with_kind(s, "list", a); }));
-  add_key(add(*library, selected, arguments, "remove", "Remove a definition; its history stays",
+  optional_kind(
+      add_subcommand(*library, selected, arguments, "list", "List names and revisions",
+                     [](const Session& s, const Arguments& a) { return with_kind(s, "list", a); }));
+  add_key(add_subcommand(
+              *library, selected, arguments, "remove", "Remove a definition; its history stays",
               [](const Session& s, const Arguments& a) { return with_key(s, "remove", a); }),
           *arguments);
-  add_key(add(*library, selected, arguments, "history", "Every revision of a name",
+  add_key(add_subcommand(
+              *library, selected, arguments, "history", "Every revision of a name",
               [](const Session& s, const Arguments& a) { return with_key(s, "history", a); }),
           *arguments);
-  add_file(add(*library, selected, arguments, "import", "Store many definitions, all or none",
-               import_all),
+  add_file(add_subcommand(*library, selected, arguments, "import",
+                          "Store many definitions, all or none", import_all),
            *arguments,
            "Array of definitions, or what export wrote (JSON), or - for standard input; or a STEP "
            "file, for\n"
            "the workpieces that its hole edges lie on");
-  optional_kind(
-      add(*library, selected, arguments, "export", "Print every definition, ready for import",
-          [](const Session& s, const Arguments& a) { return with_kind(s, "export", a); }));
+  optional_kind(add_subcommand(
+      *library, selected, arguments, "export", "Print every definition, ready for import",
+      [](const Session& s, const Arguments& a) { return with_kind(s, "export", a); }));
 }
 
 }  // namespace ridgeline::command

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <memory>
 #include <vector>
@@ -6,6 +5,7 @@
 #include "clients/ridgeline/commands.hpp"
 #include "clients/ridgeline/files.hpp"
 #include "clients/ridgeline/program_library.hpp"
+#include "clients/ridgeline/subcommand.hpp"
 #include "jobs/parse.hpp"
 
 namespace ridgeline::command {
@@ -86,12 +86,6 @@ Outcome run_program(const Session& session, const MacroArguments& arguments) {
   return ask(session, job, arguments.format);
 }
 
-void add_output(CLI::App& command, Selected& selected) {
-  command
-      .add_option("-o,--output", selected.output, "File for the result (default: standard output)")
-      ->type_name("FILE");
-}
-
 void add_control(CLI::App& command, MacroArguments& arguments) {
   command.add_option("PROGRAM", arguments.program, "NC program, or - for standard input")
       ->required();
@@ -108,63 +102,54 @@ void add_control(CLI::App& command, MacroArguments& arguments) {
 }
 
 void add_run(CLI::App& macro, Selected& selected) {
-  CLI::App* command = macro.add_subcommand("run", "Run a macro program and print its motion");
   const auto arguments = std::make_shared<MacroArguments>();
-  add_control(*command, *arguments);
-  command->add_option("--set", arguments->set, "Variable before the run, e.g. '#100=5'; repeatable")
+  CLI::App& command = add_subcommand(macro, selected, arguments, "run",
+                                     "Run a macro program and print its motion", run_program);
+  add_control(command, *arguments);
+  command.add_option("--set", arguments->set, "Variable before the run, e.g. '#100=5'; repeatable")
       ->allow_extra_args(false);
-  command->add_option("--main", arguments->main, "O number to run (default: the first)");
-  command->add_flag("--block-skip", arguments->block_skip, "Leave out blocks that begin with /");
-  command->add_flag("--trace", arguments->trace, "With json: every block with what it assigned");
-  command->add_option("--format", arguments->format, "What to print")
+  command.add_option("--main", arguments->main, "O number to run (default: the first)");
+  command.add_flag("--block-skip", arguments->block_skip, "Leave out blocks that begin with /");
+  command.add_flag("--trace", arguments->trace, "With json: every block with what it assigned");
+  command.add_option("--format", arguments->format, "What to print")
       ->check(CLI::IsMember({"json", "nc", "csv", "svg", "html", "trace"}))
       ->capture_default_str();
-  add_output(*command, selected);
-  command->footer(
+  command.footer(
       "Formats: json (motion, variables, messages), nc (plain G code), csv (one line a move), svg\n"
       "(drawing), trace (one line a block). Exit status 1 when the program stops with an alarm.\n"
       "Example: ridgeline macro run O0001.nc --library-dir lib --set '#100=5' --format nc");
-  command->callback([&selected, arguments] {
-    selected.run = [arguments](const Session& session) { return run_program(session, *arguments); };
-  });
 }
 
 void add_check(CLI::App& macro, Selected& selected) {
-  CLI::App* command =
-      macro.add_subcommand("check", "Report likely mistakes in a macro program without running it");
   const auto arguments = std::make_shared<MacroArguments>();
   arguments->format = "text";
-  add_control(*command, *arguments);
-  command->add_option("--format", arguments->format, "What to print")
+  CLI::App& command = add_subcommand(macro, selected, arguments, "check",
+                                     "Report likely mistakes in a macro program without running it",
+                                     [](const Session& session, const MacroArguments& a) {
+                                       return ask(session, macro_document(a, "check"), a.format);
+                                     });
+  add_control(command, *arguments);
+  command.add_option("--format", arguments->format, "What to print")
       ->check(CLI::IsMember({"json", "text"}))
       ->capture_default_str();
-  add_output(*command, selected);
-  command->callback([&selected, arguments] {
-    selected.run = [arguments](const Session& session) {
-      return ask(session, macro_document(*arguments, "check"), arguments->format);
-    };
-  });
 }
 
 void add_make(CLI::App& macro, Selected& selected) {
-  CLI::App* command =
-      macro.add_subcommand("make", "Write the program of a cycle, or its computed motion");
   const auto arguments = std::make_shared<MacroArguments>();
-  command->add_option("CYCLE", arguments->program, "Cycle file (JSON), or - for standard input")
+  CLI::App& command = add_subcommand(macro, selected, arguments, "make",
+                                     "Write the program of a cycle, or its computed motion",
+                                     [](const Session& session, const MacroArguments& a) {
+                                       return ask(session, read_document(a.program), a.format);
+                                     });
+  command.add_option("CYCLE", arguments->program, "Cycle file (JSON), or - for standard input")
       ->required();
-  command->add_option("--format", arguments->format, "What to print")
+  command.add_option("--format", arguments->format, "What to print")
       ->check(CLI::IsMember({"json", "nc", "csv", "svg", "html"}))
       ->capture_default_str();
-  add_output(*command, selected);
-  command->footer(
+  command.footer(
       "Formats: json (points, motion, cusp), nc (parametric program as \"program\" of the file "
       "says),\n"
       "csv (one line a move), svg (drawing).");
-  command->callback([&selected, arguments] {
-    selected.run = [arguments](const Session& session) {
-      return ask(session, read_document(arguments->program), arguments->format);
-    };
-  });
 }
 
 }  // namespace

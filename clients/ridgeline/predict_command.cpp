@@ -1,9 +1,9 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <vector>
 
 #include "clients/ridgeline/commands.hpp"
 #include "clients/ridgeline/files.hpp"
+#include "clients/ridgeline/subcommand.hpp"
 
 namespace ridgeline::command {
 namespace {
@@ -36,29 +36,24 @@ Outcome run(const Session& session, const PredictArguments& arguments) {
 }  // namespace
 
 void add_predict_command(CLI::App& app, Selected& selected) {
-  CLI::App* command = app.add_subcommand(
-      "predict", "Predict the machining error that the cutting force makes, and correct a path");
   const auto arguments = std::make_shared<PredictArguments>();
+  CLI::App& command = add_subcommand(
+      app, selected, arguments, "predict",
+      "Predict the machining error that the cutting force makes, and correct a path", run);
   command
-      ->add_option("JOB", arguments->job,
-                   "Job file (JSON): a prediction, or the job of a path; - for standard input")
+      .add_option("JOB", arguments->job,
+                  "Job file (JSON): a prediction, or the job of a path; - for standard input")
       ->required();
-  command->add_option("--format", arguments->format, "What to print")
+  command.add_option("--format", arguments->format, "What to print")
       ->check(CLI::IsMember({"json", "nc", "csv", "svg"}))
       ->capture_default_str();
-  command->add_flag("--correct", arguments->correct,
-                    "Shift the path until what is left of the error is small");
-  command
-      ->add_option("-o,--output", selected.output, "File for the result (default: standard output)")
-      ->type_name("FILE");
-  command->footer(
+  command.add_flag("--correct", arguments->correct,
+                   "Shift the path until what is left of the error is small");
+  command.footer(
       "Formats: json (error, force, deflection, stability), nc (program of the corrected path, "
       "with\n"
       "--correct), csv, svg.\n"
       "Example: ridgeline predict job.json --correct --format nc -o O9102.nc");
-  command->callback([&selected, arguments] {
-    selected.run = [arguments](const Session& session) { return run(session, *arguments); };
-  });
 }
 
 }  // namespace ridgeline::command

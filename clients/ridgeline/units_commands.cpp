@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -6,6 +5,7 @@
 
 #include "clients/ridgeline/commands.hpp"
 #include "clients/ridgeline/files.hpp"
+#include "clients/ridgeline/subcommand.hpp"
 #include "jobs/text.hpp"
 
 namespace ridgeline::command {
@@ -122,18 +122,6 @@ Outcome holes(const Session& session, const Arguments& arguments) {
   return ask(session, job, "json");
 }
 
-using Run = Outcome (*)(const Session&, const Arguments&);
-
-CLI::App& add(CLI::App& units, Selected& selected, const std::shared_ptr<Arguments>& arguments,
-              const char* name, const char* summary, Run run) {
-  CLI::App* command = units.add_subcommand(name, summary);
-  command->add_option("-o,--output", selected.output, "File for the result")->type_name("FILE");
-  command->callback([&selected, arguments, run] {
-    selected.run = [arguments, run](const Session& session) { return run(session, *arguments); };
-  });
-  return *command;
-}
-
 void add_format(CLI::App& command, const std::shared_ptr<Arguments>& arguments,
                 const std::vector<std::string>& formats) {
   arguments->format = formats.front();
@@ -144,8 +132,9 @@ void add_format(CLI::App& command, const std::shared_ptr<Arguments>& arguments,
 
 void add_edit(CLI::App& units, Selected& selected) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = add(units, selected, arguments, "edit",
-                          "Change, insert or remove units; everything after is rebuilt", edit);
+  CLI::App& command =
+      add_subcommand(units, selected, arguments, "edit",
+                     "Change, insert or remove units; everything after is rebuilt", edit);
   command.add_option("PROGRAM", arguments->file, "Program that plan or edit printed")->required();
   CLI::Option* edits = command.add_option("EDIT", arguments->edit, "Edits (JSON), or -");
   CLI::Option* undo =
@@ -165,8 +154,8 @@ void add_edit(CLI::App& units, Selected& selected) {
 
 void add_nc(CLI::App& units, Selected& selected) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App& command =
-      add(units, selected, arguments, "nc", "Write the NC programs of both spindles", nc);
+  CLI::App& command = add_subcommand(units, selected, arguments, "nc",
+                                     "Write the NC programs of both spindles", nc);
   command.add_option("PROGRAM", arguments->file, "Program (JSON), or -")->required();
   command.add_option("--dialect", arguments->dialect, "Control")
       ->check(CLI::IsMember({"fanuc", "linuxcnc"}))
@@ -184,8 +173,9 @@ void add_nc(CLI::App& units, Selected& selected) {
 
 void add_holes(CLI::App& units, Selected& selected) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = add(units, selected, arguments, "holes",
-                          "Find the hole edges of a part: workpieces and chamfer jobs", holes);
+  CLI::App& command =
+      add_subcommand(units, selected, arguments, "holes",
+                     "Find the hole edges of a part: workpieces and chamfer jobs", holes);
   command.add_option("PART", arguments->file, "STEP file, or a part of the library")->required();
   command.add_option("--name", arguments->name, "Name of the workpiece (default: of the file)");
   CLI::Option* tool = command.add_option("--tool", arguments->tool,
@@ -227,13 +217,13 @@ void add_units_commands(CLI::App& app, Selected& selected) {
       "Machining units: from stock and product to a turn-mill program that survives edits");
   units->require_subcommand(1);
   const auto of_plan = std::make_shared<Arguments>();
-  CLI::App& plan_command = add(*units, selected, of_plan, "plan",
-                               "Plan the units that make a product from its stock", plan);
+  CLI::App& plan_command = add_subcommand(
+      *units, selected, of_plan, "plan", "Plan the units that make a product from its stock", plan);
   plan_command.add_option("JOB", of_plan->file, "Job (JSON), or -")->required();
   add_format(plan_command, of_plan, {"json", "text", "svg", "html"});
   const auto of_show = std::make_shared<Arguments>();
-  CLI::App& show_command =
-      add(*units, selected, of_show, "show", "Print a program as a tree or a picture", show);
+  CLI::App& show_command = add_subcommand(*units, selected, of_show, "show",
+                                          "Print a program as a tree or a picture", show);
   show_command.add_option("PROGRAM", of_show->file, "Program (JSON), or -")->required();
   add_format(show_command, of_show, {"text", "json", "svg", "html"});
   add_edit(*units, selected);
