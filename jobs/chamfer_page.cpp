@@ -213,30 +213,22 @@ Json charts_of(const Loop& loop) {
 }
 
 Json report_rows(const Json& document) {
-  const Json& report = document.at("report");
-  struct Row {
-    const char* key;
-    const char* name;
-    const char* unit;
-  };
-  constexpr Row rows[] = {{"points", "cutting points", ""},
-                          {"points_optimal", "least number of points", ""},
-                          {"chord_error", "certified error of the path", "mm"},
-                          {"width_min", "least width, measured", "mm"},
-                          {"width_max", "greatest width, measured", "mm"},
-                          {"overcut", "deepest cut beside the chamfer", "mm"},
-                          {"neck_clearance", "clearance of neck and shank", "mm"},
-                          {"holder_clearance", "clearance of the holder", "mm"},
-                          {"rapid_clearance", "clearance of rapids", "mm"},
-                          {"closing_error", "closing error", "mm"},
-                          {"path_length", "length of the path", "mm"},
-                          {"cutting_time", "cutting time", "s"}};
-  Json list = Json::array();
-  list.push_back({{"name", "asked width"}, {"value", document.at("width")}, {"unit", "mm"}});
-  list.push_back({{"name", "tolerance"}, {"value", document.at("tolerance")}, {"unit", "mm"}});
-  for (const Row& row : rows)
-    list.push_back(
-        {{"key", row.key}, {"name", row.name}, {"value", report.at(row.key)}, {"unit", row.unit}});
+  Json list = {{{"name", "asked width"}, {"value", document.at("width")}, {"unit", "mm"}},
+               {{"name", "tolerance"}, {"value", document.at("tolerance")}, {"unit", "mm"}}};
+  const Json measured =
+      page_rows(document.at("report"), {{"points", "cutting points", ""},
+                                        {"points_optimal", "least number of points", ""},
+                                        {"chord_error", "certified error of the path", "mm"},
+                                        {"width_min", "least width, measured", "mm"},
+                                        {"width_max", "greatest width, measured", "mm"},
+                                        {"overcut", "deepest cut beside the chamfer", "mm"},
+                                        {"neck_clearance", "clearance of neck and shank", "mm"},
+                                        {"holder_clearance", "clearance of the holder", "mm"},
+                                        {"rapid_clearance", "clearance of rapids", "mm"},
+                                        {"closing_error", "closing error", "mm"},
+                                        {"path_length", "length of the path", "mm"},
+                                        {"cutting_time", "cutting time", "s"}});
+  list.insert(list.end(), measured.begin(), measured.end());
   return list;
 }
 

@@ -79,24 +79,11 @@ Json charts_of(const PageMotion& motion) {
 }
 
 Json report_rows(const Json& document) {
-  struct Row {
-    const char* key;
-    const char* name;
-    const char* unit;
-  };
-  constexpr Row rows[] = {{"statements", "executed statements", ""},
-                          {"machining_seconds", "machining time", "s"},
-                          {"tool", "tool", ""},
-                          {"spindle_speed", "spindle speed", "rev/min"},
-                          {"cusp", "cusp height", "mm"}};
-  Json list = Json::array();
-  for (const Row& row : rows)
-    if (document.contains(row.key) && document.at(row.key).is_number())
-      list.push_back({{"key", row.key},
-                      {"name", row.name},
-                      {"value", document.at(row.key)},
-                      {"unit", row.unit}});
-  return list;
+  return page_rows(document, {{"statements", "executed statements", ""},
+                              {"machining_seconds", "machining time", "s"},
+                              {"tool", "tool", ""},
+                              {"spindle_speed", "spindle speed", "rev/min"},
+                              {"cusp", "cusp height", "mm"}});
 }
 
 }  // namespace

@@ -99,6 +99,16 @@ Json page_points(const std::vector<Vector3d>& points) {
   return {{"f32", base64(bytes)}};
 }
 
+Json page_rows(const Json& document, std::initializer_list<PageRow> rows) {
+  Json list = Json::array();
+  for (const PageRow& row : rows) {
+    const auto value = document.find(row.key);
+    if (value == document.end()) continue;
+    list.push_back({{"key", row.key}, {"name", row.name}, {"value", *value}, {"unit", row.unit}});
+  }
+  return list;
+}
+
 Json page_values(const std::vector<double>& values) {
   std::string bytes;
   bytes.reserve(8 * values.size());

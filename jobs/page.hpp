@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -20,6 +21,15 @@ std::string page(const nlohmann::json& data);
 nlohmann::json page_points(const std::vector<Eigen::Vector3d>& points);
 /// Values of a chart: float64, the same numbers as in the result. NaN: a gap.
 nlohmann::json page_values(const std::vector<double>& values);
+
+/// A number of a document that the page's table shows.
+struct PageRow {
+  const char* key;
+  const char* name;
+  const char* unit;
+};
+/// The table's rows of those numbers that the document has; `null` stays null.
+nlohmann::json page_rows(const nlohmann::json& document, std::initializer_list<PageRow> rows);
 
 /// A path as the page draws it: straight pieces, arcs within a tolerance that the screen does not
 /// show.

@@ -4,6 +4,7 @@
 #include "core/base/angle.hpp"
 #include "core/macro/cycle.hpp"
 #include "core/macro/cycle_section.hpp"
+#include "core/macro/refuse.hpp"
 #include "core/macro/text.hpp"
 
 namespace ridgeline::macro {
@@ -13,15 +14,6 @@ namespace {
 constexpr double most_passes = 1e6;  // passes, levels or segments of one cycle
 constexpr double largest = 1e5;      // [mm]
 constexpr double tolerance = 1e-9;   // [mm], rounding of numbers that should be equal
-
-[[noreturn]] void refuse(const std::string& field, double value, const std::string& limit) {
-  ErrorDetails details;
-  details.field = field;
-  details.value = number_text(value);
-  details.limit = limit;
-  throw Error(ErrorCode::BadInput, field + " must be " + limit + ", is " + number_text(value),
-              details);
-}
 
 void require(bool holds, const std::string& field, double value, const std::string& limit) {
   if (!holds) refuse(field, value, limit);

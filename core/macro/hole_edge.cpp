@@ -5,6 +5,7 @@
 
 #include "core/base/angle.hpp"
 #include "core/base/error.hpp"
+#include "core/macro/refuse.hpp"
 #include "core/macro/text.hpp"
 
 namespace ridgeline::macro {
@@ -17,15 +18,6 @@ constexpr int most_iterations = 30;
 constexpr double converged = 1e-13;  // of R1
 constexpr int most_points = 100000;
 constexpr int samples = 720;  // of the curve, for its curvature
-
-[[noreturn]] void refuse(const std::string& field, double value, const std::string& limit) {
-  ErrorDetails details;
-  details.field = field;
-  details.value = number_text(value);
-  details.limit = limit;
-  throw Error(ErrorCode::BadInput, field + " must be " + limit + ", is " + number_text(value),
-              details);
-}
 
 void validate(const HoleEdge& edge) {
   if (!(edge.R2 > 0)) refuse("R2", edge.R2, "greater than 0 mm");

@@ -61,12 +61,6 @@ public:
   }
 
 private:
-  bool in_work_plane() const {
-    return is_tilted(program_) && program_.tilted == TiltedOutput::WorkPlane;
-  }
-  bool follows_tool() const {
-    return is_tilted(program_) && program_.tilted == TiltedOutput::WorkFrame;
-  }
   bool is_inline() const { return program_.kind == ProgramKind::Inline; }
   bool is_main() const { return program_.kind == ProgramKind::Main; }
   int offset() const {
@@ -115,13 +109,13 @@ private:
         blocks_.block(plane_ + " G21 G40 G49 G61 G80 G90 G91.1 G94 G97");
         break;
       default:
-        if (in_work_plane()) blocks_.block("G69");
+        if (in_work_plane(program_)) blocks_.block("G69");
         blocks_.block(plane_ + " G21 G40 G49 G80 G90 G94");
     }
     if (!program_.work_offset.empty()) blocks_.block(work_offset(program_).words);
     tool_call();
-    if (in_work_plane()) tilt();
-    if (follows_tool() && dialect_ == Dialect::Siemens) blocks_.block("TRAORI");
+    if (in_work_plane(program_)) tilt();
+    if (follows_tool(program_) && dialect_ == Dialect::Siemens) blocks_.block("TRAORI");
     if (program_.spindle_speed > 0) {
       const auto speed = static_cast<std::int64_t>(std::llround(program_.spindle_speed));
       blocks_.block("S" + std::to_string(speed) + (program_.spindle_clockwise ? " M3" : " M4"));
@@ -181,7 +175,7 @@ private:
     }
     const std::string length = " H" + std::to_string(offset());
     const bool with_length = dialect_ == Dialect::Fanuc && offset() != 0;
-    if (with_length && follows_tool()) {
+    if (with_length && follows_tool(program_)) {
       // The control needs the whole point to follow the tool from the first block on.
       std::string point = "G0 G43.4";
       for (std::size_t n = 0; n < 3; ++n) point += ' ' + axis_word(n, plan_.start[n]);
@@ -242,9 +236,9 @@ private:
     if (program_.spindle_speed > 0) blocks_.block("M5");
     const bool tilted_fanuc = is_tilted(program_) && dialect_ == Dialect::Fanuc;
     if (tilted_fanuc && offset() != 0) blocks_.block("G49");
-    if (in_work_plane()) blocks_.block(dialect_ == Dialect::Siemens ? "CYCLE800()" : "G69");
+    if (in_work_plane(program_)) blocks_.block(dialect_ == Dialect::Siemens ? "CYCLE800()" : "G69");
     if (dialect_ == Dialect::Siemens) {
-      if (follows_tool()) blocks_.block("TRAFOOF");
+      if (follows_tool(program_)) blocks_.block("TRAFOOF");
       if (program_.tool_number != 0 && leaves_plane()) blocks_.block(length_constant(0));
       if (plane_ != plane_word(length_axis(program_))) blocks_.block("G17");
       blocks_.block(is_main() ? "M30" : "RET");

@@ -36,13 +36,6 @@ public:
   }
 
 private:
-  bool in_work_plane() const {
-    return is_tilted(program_) && program_.tilted == TiltedOutput::WorkPlane;
-  }
-  bool follows_tool() const {
-    return is_tilted(program_) && program_.tilted == TiltedOutput::WorkFrame;
-  }
-
   void prepare() {
     if (!program_.work_offset.empty()) {
       blocks_.block("CYCL DEF 247 DATUM SETTING ~");
@@ -58,8 +51,8 @@ private:
       }
       blocks_.block(call);
     }
-    if (in_work_plane()) tilt();
-    if (follows_tool()) blocks_.block("M128");
+    if (in_work_plane(program_)) tilt();
+    if (follows_tool(program_)) blocks_.block("M128");
     if (program_.spindle_speed > 0) blocks_.block(program_.spindle_clockwise ? "M3" : "M4");
   }
 
@@ -163,8 +156,8 @@ private:
   void end() {
     if (program_.coolant != Coolant::None) blocks_.block("M9");
     if (program_.spindle_speed > 0) blocks_.block("M5");
-    if (follows_tool()) blocks_.block("M129");
-    if (in_work_plane()) blocks_.block("PLANE RESET STAY");
+    if (follows_tool(program_)) blocks_.block("M129");
+    if (in_work_plane(program_)) blocks_.block("PLANE RESET STAY");
     // A called program ends with its last block.
     if (program_.kind == ProgramKind::Main) blocks_.block("M30");
   }

@@ -62,5 +62,9 @@ int length_axis(const Program& program);
 
 /// The tool axis is none of the machine's.
 bool is_tilted(const Program& program);
+/// A tilted tool in a tilted work plane: the program turns the plane.
+bool in_work_plane(const Program& program);
+/// A tilted tool in the work frame: the control follows its tip.
+bool follows_tool(const Program& program);
 
 }  // namespace ridgeline::nc

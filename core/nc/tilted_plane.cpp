@@ -81,6 +81,14 @@ bool is_tilted(const Program& program) {
   return !path::machine_axis(program.tool_axis.normalized());
 }
 
+bool in_work_plane(const Program& program) {
+  return is_tilted(program) && program.tilted == TiltedOutput::WorkPlane;
+}
+
+bool follows_tool(const Program& program) {
+  return is_tilted(program) && program.tilted == TiltedOutput::WorkFrame;
+}
+
 int length_axis(const Program& program) {
   int n = 2;
   if (!is_tilted(program)) program.tool_axis.cwiseAbs().maxCoeff(&n);
@@ -88,9 +96,7 @@ int length_axis(const Program& program) {
 }
 
 Eigen::Matrix3d plane_axes(const Program& program) {
-  if (!is_tilted(program) || program.tilted == TiltedOutput::WorkFrame) {
-    return Eigen::Matrix3d::Identity();
-  }
+  if (!in_work_plane(program)) return Eigen::Matrix3d::Identity();
   const Eigen::Vector3d axis = program.tool_axis.normalized();
   if (program.dialect == Dialect::Siemens) {
     return plane_of_swivel(as_numbers(swivel_angles(axis), swivel_decimals));

@@ -94,8 +94,7 @@ void validate(const Program& program) {
                 "motion within another program is for FANUC and LinuxCNC with a machine axis",
                 {"/output/kind", "inline", "", std::nullopt, std::nullopt});
   }
-  const bool in_plane = is_tilted(program) && program.tilted == TiltedOutput::WorkPlane;
-  if (in_plane && program.dialect == Dialect::LinuxCnc) {
+  if (in_work_plane(program) && program.dialect == Dialect::LinuxCnc) {
     throw Error(ErrorCode::Unsupported,
                 "LinuxCNC has no tilted work plane: ask for coordinates in the work frame or "
                 "another dialect",
