@@ -21,10 +21,10 @@ struct Overcut {
 /// anywhere on the body. A boundary point q counts with D - (distance of q to the path), unless it
 /// is in the band: on one of the two surfaces of the edge, between the ridge and the border that
 /// the path itself cuts there (Band). So a clean chamfer of any width has none: its width is
-/// measured elsewhere. Where the ball centre is inside the material and not in the tip that the band
-/// takes off: D + its depth there.
-/// Found by following the path in steps of D / 25 and refining every peak; what two steps hide is
-/// below (D / 25)^2 / (8 r) for a boundary of curvature radius r.
+/// measured elsewhere. Where the ball centre is inside the material and not in the tip that the
+/// band takes off: D + its depth there. Found by following the path in steps of D / 25 and refining
+/// every peak; what two steps hide is below (D / 25)^2 / (8 r) for a boundary of curvature radius
+/// r.
 Overcut overcut(const geometry::Edge& edge, const geometry::Solid& solid,
                 const geometry::Trace& path, const Band& band,
                 const std::vector<BandSection>& sections, double D);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "jobs/answer.hpp"
+#include "tests/jobs/predict_refusal.hpp"
 
 namespace ridgeline::jobs {
 namespace {
@@ -152,51 +153,36 @@ TEST(PredictChamfer, BeamFromGeometryIsAnEstimate) {
   EXPECT_NE(result["warnings"].dump().find("estimate"), std::string::npos);
 }
 
-struct Refused {
-  const char* name;
-  const char* patch;  // JSON merge patch on the job
-  const char* code;
-  const char* field;
-};
-
-void PrintTo(const Refused& refused, std::ostream* out) {
-  *out << refused.name;
-}
-
-class PredictChamferRefusal : public testing::TestWithParam<Refused> {};
+class PredictChamferRefusal : public testing::TestWithParam<PredictRefusal> {};
 
 TEST_P(PredictChamferRefusal, NamesTheField) {
-  Json job = chamfer_job();
-  job.merge_patch(Json::parse(GetParam().patch));
-  const Json result = run(job);
-  ASSERT_EQ(result["status"], "error") << result.dump().substr(0, 500);
-  EXPECT_EQ(result["error"]["code"], GetParam().code) << result.dump();
-  EXPECT_EQ(result["error"].value("field", ""), GetParam().field) << result.dump();
+  expect_refused(chamfer_job(), GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Table, PredictChamferRefusal,
     testing::Values(
-        Refused{"NoMaterial", R"({"material": null})", "bad_input", "/material"},
-        Refused{"UnknownMaterial", R"({"material": "unobtainium"})", "unknown_material",
-                "/material"},
-        Refused{"UnknownPath", R"({"along": {"job": "dance"}})", "bad_input", "/along/job"},
-        Refused{"PathWithoutWidth", R"({"along": {"cutting_amount": null}})", "bad_input",
-                "/along/width"},
-        Refused{"FeedBeyondTheTool", R"({"along": {"feed": 500000}})", "bad_input", "/along/feed"},
-        Refused{"SpringPass", R"({"along": {"spring_pass": true}})", "unsupported",
-                "/along/spring_pass"},
-        Refused{"TooManyPlaces", R"({"N": 65536, "nq": 1024})", "bad_input", "/N"},
-        Refused{"UnknownKey", R"({"steel": 1})", "bad_input", "/steel"},
-        Refused{"NegativeCoefficient", R"({"material": {"Ktc": -1}})", "bad_input",
-                "/material/Ktc"},
-        Refused{"OneDirectionOnly",
-                R"({"dynamics": {"modes": null, "modes_x": [[1000, 0.03, 1000]]}})", "bad_input",
-                "/dynamics/modes_y"},
-        Refused{"SoftToolChatters",
-                R"({"dynamics": {"modes": [[600, 0.03, 150]]}, "correct": true})", "not_converged",
-                "/correct"},
-        Refused{"NoSpeed", R"({"along": {"spindle_speed": 0}})", "bad_input", "/speed_rpm"}),
+        PredictRefusal{"NoMaterial", R"({"material": null})", "bad_input", "/material"},
+        PredictRefusal{"UnknownMaterial", R"({"material": "unobtainium"})", "unknown_material",
+                       "/material"},
+        PredictRefusal{"UnknownPath", R"({"along": {"job": "dance"}})", "bad_input", "/along/job"},
+        PredictRefusal{"PathWithoutWidth", R"({"along": {"cutting_amount": null}})", "bad_input",
+                       "/along/width"},
+        PredictRefusal{"FeedBeyondTheTool", R"({"along": {"feed": 500000}})", "bad_input",
+                       "/along/feed"},
+        PredictRefusal{"SpringPass", R"({"along": {"spring_pass": true}})", "unsupported",
+                       "/along/spring_pass"},
+        PredictRefusal{"TooManyPlaces", R"({"N": 65536, "nq": 1024})", "bad_input", "/N"},
+        PredictRefusal{"UnknownKey", R"({"steel": 1})", "bad_input", "/steel"},
+        PredictRefusal{"NegativeCoefficient", R"({"material": {"Ktc": -1}})", "bad_input",
+                       "/material/Ktc"},
+        PredictRefusal{"OneDirectionOnly",
+                       R"({"dynamics": {"modes": null, "modes_x": [[1000, 0.03, 1000]]}})",
+                       "bad_input", "/dynamics/modes_y"},
+        PredictRefusal{"SoftToolChatters",
+                       R"({"dynamics": {"modes": [[600, 0.03, 150]]}, "correct": true})",
+                       "not_converged", "/correct"},
+        PredictRefusal{"NoSpeed", R"({"along": {"spindle_speed": 0}})", "bad_input", "/speed_rpm"}),
     [](const auto& refused) { return refused.param.name; });
 
 }  // namespace

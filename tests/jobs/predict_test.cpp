@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "jobs/answer.hpp"
+#include "tests/jobs/predict_refusal.hpp"
 
 namespace ridgeline::jobs {
 namespace {
@@ -165,50 +166,34 @@ TEST(PredictJob, MeasuredResponseInPlaceOfModes) {
   EXPECT_NE(measured["warnings"].dump().find("fitted"), std::string::npos);
 }
 
-struct Refused {
-  const char* name;
-  const char* patch;  // JSON merge patch on the job
-  const char* code;
-  const char* field;
-};
+class PredictEngagementRefusal : public testing::TestWithParam<PredictRefusal> {};
 
-void PrintTo(const Refused& refused, std::ostream* out) {
-  *out << refused.name;
-}
-
-class PredictRefusal : public testing::TestWithParam<Refused> {};
-
-TEST_P(PredictRefusal, NamesTheField) {
-  Json job = oracle_job();
-  job.merge_patch(Json::parse(GetParam().patch));
-  const Json result = run(job);
-  ASSERT_EQ(result["status"], "error") << result.dump();
-  EXPECT_EQ(result["error"]["code"], GetParam().code) << result.dump();
-  EXPECT_EQ(result["error"]["field"], GetParam().field) << result.dump();
+TEST_P(PredictEngagementRefusal, NamesTheField) {
+  expect_refused(oracle_job(), GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Table, PredictRefusal,
+    Table, PredictEngagementRefusal,
     testing::Values(
-        Refused{"NoCase", R"({"case": null})", "bad_input", "/case"},
-        Refused{"UnknownKey", R"({"case": {"speed": 1}})", "bad_input", "/case/speed"},
-        Refused{"NoTeeth", R"({"case": {"tool": {"z": 0}}})", "bad_input", "/case/tool/z"},
-        Refused{"NegativeFeed", R"({"case": {"feed_per_tooth": -0.1}})", "bad_input",
-                "/case/feed_per_tooth"},
-        Refused{"PitchThatDoesNotClose", R"({"case": {"tool": {"pitch_deg": [170, 180]}}})",
-                "bad_input", "/case/tool/pitch_deg"},
-        Refused{"RunoutOfOneTooth", R"({"case": {"tool": {"runout_mm": [0.01]}}})", "bad_input",
-                "/case/tool/runout_mm"},
-        Refused{"TooManyPlaces", R"({"case": {"N": 65536, "tool": {"nq": 4096}}})", "bad_input",
-                "/case/N"},
-        Refused{"StockWithoutDepth", R"({"case": {"engagement": {"c": null}}})", "bad_input",
-                "/case/engagement/c"},
-        Refused{"NoModes", R"({"case": {"modes_x": null}})", "bad_input", "/case/modes_x"},
-        Refused{"UndampedMode", R"({"case": {"modes_x": [[1000, 0, 2000]]}})", "bad_input",
-                "/case/modes_x/0/1"},
-        Refused{"LowPassThroughTheResonance", R"({"options": {"kappa": 0.5}})", "bad_input",
-                "/options/kappa"},
-        Refused{"NoSpeed", R"({"speed_rpm": null})", "bad_input", "/speed_rpm"}),
+        PredictRefusal{"NoCase", R"({"case": null})", "bad_input", "/case"},
+        PredictRefusal{"UnknownKey", R"({"case": {"speed": 1}})", "bad_input", "/case/speed"},
+        PredictRefusal{"NoTeeth", R"({"case": {"tool": {"z": 0}}})", "bad_input", "/case/tool/z"},
+        PredictRefusal{"NegativeFeed", R"({"case": {"feed_per_tooth": -0.1}})", "bad_input",
+                       "/case/feed_per_tooth"},
+        PredictRefusal{"PitchThatDoesNotClose", R"({"case": {"tool": {"pitch_deg": [170, 180]}}})",
+                       "bad_input", "/case/tool/pitch_deg"},
+        PredictRefusal{"RunoutOfOneTooth", R"({"case": {"tool": {"runout_mm": [0.01]}}})",
+                       "bad_input", "/case/tool/runout_mm"},
+        PredictRefusal{"TooManyPlaces", R"({"case": {"N": 65536, "tool": {"nq": 4096}}})",
+                       "bad_input", "/case/N"},
+        PredictRefusal{"StockWithoutDepth", R"({"case": {"engagement": {"c": null}}})", "bad_input",
+                       "/case/engagement/c"},
+        PredictRefusal{"NoModes", R"({"case": {"modes_x": null}})", "bad_input", "/case/modes_x"},
+        PredictRefusal{"UndampedMode", R"({"case": {"modes_x": [[1000, 0, 2000]]}})", "bad_input",
+                       "/case/modes_x/0/1"},
+        PredictRefusal{"LowPassThroughTheResonance", R"({"options": {"kappa": 0.5}})", "bad_input",
+                       "/options/kappa"},
+        PredictRefusal{"NoSpeed", R"({"speed_rpm": null})", "bad_input", "/speed_rpm"}),
     [](const auto& refused) { return refused.param.name; });
 
 }  // namespace

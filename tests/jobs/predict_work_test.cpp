@@ -6,6 +6,7 @@
 
 #include "core/nc/reader.hpp"
 #include "jobs/answer.hpp"
+#include "tests/jobs/predict_refusal.hpp"
 
 namespace ridgeline::jobs {
 namespace {
@@ -134,42 +135,27 @@ TEST(PredictCycle, TakesTheNormalsOfTheCycle) {
   EXPECT_EQ(run(job)["error"]["field"], "/along/params/r");
 }
 
-struct Refused {
-  const char* name;
-  const char* patch;  // JSON merge patch on the job
-  const char* code;
-  const char* field;
-};
-
-void PrintTo(const Refused& refused, std::ostream* out) {
-  *out << refused.name;
-}
-
-class PredictProgramRefusal : public testing::TestWithParam<Refused> {};
+class PredictProgramRefusal : public testing::TestWithParam<PredictRefusal> {};
 
 TEST_P(PredictProgramRefusal, NamesTheField) {
-  Json job = program_job();
-  job.merge_patch(Json::parse(GetParam().patch));
-  const Json result = run(job);
-  ASSERT_EQ(result["status"], "error") << result.dump().substr(0, 500);
-  EXPECT_EQ(result["error"]["code"], GetParam().code) << result.dump();
-  EXPECT_EQ(result["error"].value("field", ""), GetParam().field) << result.dump();
+  expect_refused(program_job(), GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Table, PredictProgramRefusal,
     testing::Values(
-        Refused{"NoTool", R"({"tool": null})", "bad_input", "/tool"},
-        Refused{"NoStock", R"({"along": {"stock": null}})", "bad_input", "/along/stock"},
-        Refused{"StockInsideOut", R"({"along": {"stock": {"max": [-1, 0, 0]}}})", "bad_input",
-                "/along/stock/max"},
-        Refused{"TooFineStock", R"({"along": {"stock": {"cell": 0.001}}})", "bad_input",
-                "/along/stock/cell"},
-        Refused{"NotAProgram", R"({"along": {"program": "hello"}})", "bad_file", "line 1"},
-        Refused{"NothingCuts",
-                R"({"along": {"program": "S8000 M3\nG90 G54\nG0 X0. Y0. Z5.\nG0 X9.\nM30\n"}})",
-                "bad_input", "/along"},
-        Refused{"NoKey", R"({"along": {"speed": 1}})", "bad_input", "/along/speed"}),
+        PredictRefusal{"NoTool", R"({"tool": null})", "bad_input", "/tool"},
+        PredictRefusal{"NoStock", R"({"along": {"stock": null}})", "bad_input", "/along/stock"},
+        PredictRefusal{"StockInsideOut", R"({"along": {"stock": {"max": [-1, 0, 0]}}})",
+                       "bad_input", "/along/stock/max"},
+        PredictRefusal{"TooFineStock", R"({"along": {"stock": {"cell": 0.001}}})", "bad_input",
+                       "/along/stock/cell"},
+        PredictRefusal{"NotAProgram", R"({"along": {"program": "hello"}})", "bad_file", "line 1"},
+        PredictRefusal{
+            "NothingCuts",
+            R"({"along": {"program": "S8000 M3\nG90 G54\nG0 X0. Y0. Z5.\nG0 X9.\nM30\n"}})",
+            "bad_input", "/along"},
+        PredictRefusal{"NoKey", R"({"along": {"speed": 1}})", "bad_input", "/along/speed"}),
     [](const auto& refused) { return refused.param.name; });
 
 }  // namespace

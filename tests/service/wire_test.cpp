@@ -9,6 +9,7 @@
 #include "service/chunks.hpp"
 #include "service/counters.hpp"
 #include "service/job_kind.hpp"
+#include "tests/support/typed_chamfer.hpp"
 
 namespace ridgeline::wire {
 namespace {
@@ -171,19 +172,8 @@ TEST(Assembler, RefusesSamplesThatDoNotFit) {
   expect_refused([](ridgeline_wire_Reply& sample) { sample.document = borrowed("{]"); });
 }
 
-ridgeline_wire_ChamferJob typed() {
-  static char tube[] = "tube-40", hole[] = "H1", tool[] = "12", none[] = "";
-  ridgeline_wire_ChamferJob chamfer{};
-  chamfer.workpiece = tube;
-  chamfer.hole = hole;
-  chamfer.tool = tool;
-  chamfer.tool_axis = chamfer.dialect = chamfer.work_offset = none;
-  chamfer.width = 0.5;
-  return chamfer;
-}
-
 TEST(ChamferJob, AClearedStructAsksWithTheDefaults) {
-  EXPECT_EQ(chamfer_job(typed()), Json::parse(R"({
+  EXPECT_EQ(chamfer_job(typed_chamfer()), Json::parse(R"({
     "job": "chamfer", "workpiece": "tube-40", "hole": "H1", "tool": 12, "edge": "inner",
     "side": "entry", "width": 0.5, "method": "swept", "direction": "climb", "feed_at": "contact",
     "section_angle": "bisector",
@@ -191,7 +181,7 @@ TEST(ChamferJob, AClearedStructAsksWithTheDefaults) {
 }
 
 TEST(ChamferJob, EveryFieldArrives) {
-  ridgeline_wire_ChamferJob c = typed();
+  ridgeline_wire_ChamferJob c = typed_chamfer();
   char axis[] = "hole", dialect[] = "siemens", offset[] = "G55", tool[] = "lollipop 6";
   double angles[] = {0, 45, 90, 50};
   c.tool = tool;
@@ -237,7 +227,7 @@ TEST(ChamferJob, EveryFieldArrives) {
 
 template <class F>
 std::string refused_field(F&& change) {
-  ridgeline_wire_ChamferJob c = typed();
+  ridgeline_wire_ChamferJob c = typed_chamfer();
   change(c);
   try {
     chamfer_job(c);

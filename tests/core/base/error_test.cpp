@@ -5,7 +5,8 @@
 namespace ridgeline {
 namespace {
 
-// The numbers and names are the wire contract: this table is written by hand from chamfer.md section 8.
+// The numbers and names are the wire contract: this table is written by hand from chamfer.md
+// section 8.
 TEST(Error, NamesOfTheContractKeepTheirNumbers) {
   EXPECT_EQ(name(ErrorCode{1}), "bad_input");
   EXPECT_EQ(name(ErrorCode{5}), "inconsistent_eccentricity");

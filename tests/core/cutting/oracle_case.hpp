@@ -9,6 +9,14 @@
 
 namespace ridgeline::cutting::oracle {
 
+/// Cases of every kind: cutters, strategies, convergence, warm start, options.
+inline constexpr const char* cases[] = {"01-ball-down-milling-1-groove.json",
+                                        "03-ball-third-pass-low-pass-kappa-2.json",
+                                        "05-same-fixed-weights-not-converging.json",
+                                        "06-warm-start-from-pass-2.json",
+                                        "09-square-down-milling-helix-5.json",
+                                        "11-extensions-stock-limited-chip-3-earlier-teeth.json"};
+
 /// Reads the files of tests/oracle/error by hand: independent of the mapping in jobs/.
 inline nlohmann::json file(const std::string& name) {
   std::ifstream in(std::string(RIDGELINE_TESTS) + "/oracle/error/" + name);

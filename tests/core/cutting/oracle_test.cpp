@@ -63,13 +63,7 @@ TEST_P(ErrorOracle, RigidAndIterationAgree) {
   expect_samples(expected["D"], every, actual.D);
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, ErrorOracle,
-                         testing::Values("01-ball-down-milling-1-groove.json",
-                                         "03-ball-third-pass-low-pass-kappa-2.json",
-                                         "05-same-fixed-weights-not-converging.json",
-                                         "06-warm-start-from-pass-2.json",
-                                         "09-square-down-milling-helix-5.json",
-                                         "11-extensions-stock-limited-chip-3-earlier-teeth.json"));
+INSTANTIATE_TEST_SUITE_P(Files, ErrorOracle, testing::ValuesIn(oracle::cases));
 
 }  // namespace
 }  // namespace ridgeline::cutting

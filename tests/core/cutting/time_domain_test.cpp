@@ -34,13 +34,7 @@ TEST_P(TimeDomainOracle, EveryDigitAgrees) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, TimeDomainOracle,
-                         testing::Values("01-ball-down-milling-1-groove.json",
-                                         "03-ball-third-pass-low-pass-kappa-2.json",
-                                         "05-same-fixed-weights-not-converging.json",
-                                         "06-warm-start-from-pass-2.json",
-                                         "09-square-down-milling-helix-5.json",
-                                         "11-extensions-stock-limited-chip-3-earlier-teeth.json"));
+INSTANTIATE_TEST_SUITE_P(Files, TimeDomainOracle, testing::ValuesIn(oracle::cases));
 
 // Design page, section 4: base case, third pass. (1) 13700 rev/min flips, (2) a soft square mill at
 // 6000 rev/min never settles, though the iteration converges there in 5 loops.

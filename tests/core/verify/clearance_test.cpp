@@ -61,10 +61,10 @@ TEST(Clearance, InAStraightHoleItIsWhatIsLeft) {
   const Solid solid(subject.workpiece);
   for (const path::Motion& motion : {polygon(c, 400), circle(c)}) {
     const Trace trace = trace_of(motion);
-    EXPECT_NEAR(clearance(solid, trace, Vector3d::UnitZ(), tool::neck_of(lollipop(), 200)).value, 0.5,
-                1e-7);
-    EXPECT_NEAR(clearance(solid, trace, Vector3d::UnitZ(), tool::holder_of(lollipop(), 200)).value, 33,
-                1e-7);
+    EXPECT_NEAR(clearance(solid, trace, Vector3d::UnitZ(), tool::neck_of(lollipop(), 200)).value,
+                0.5, 1e-7);
+    EXPECT_NEAR(clearance(solid, trace, Vector3d::UnitZ(), tool::holder_of(lollipop(), 200)).value,
+                33, 1e-7);
   }
 }
 
@@ -78,7 +78,8 @@ TEST(Clearance, AFlatHolderFaceIsFlat) {
   const Countersink c{.R2 = 5, .D = 3, .r = 1, .z = 6};
   const Solid solid(subject_of({}).workpiece);
   const Trace trace = trace_of(circle(c));
-  EXPECT_NEAR(clearance(solid, trace, Vector3d::UnitZ(), tool::holder_of(tool, 200)).value, 2, 1e-7);
+  EXPECT_NEAR(clearance(solid, trace, Vector3d::UnitZ(), tool::holder_of(tool, 200)).value, 2,
+              1e-7);
   EXPECT_LT(clearance(solid, trace, -Vector3d::UnitZ(), tool::holder_of(tool, 200)).value, 0);
 }
 
@@ -92,8 +93,9 @@ TEST(Clearance, ARimPassingAnEdgeIsMeasuredAcross) {
   path::Motion motion;
   motion.start = {30 + 12 + 1, -10, 10 - 7 + 2};
   add_line(motion, path::MoveKind::Retract, motion.start + Vector3d(0, 20, 0));
-  EXPECT_NEAR(clearance(solid, trace_of(motion), Vector3d::UnitZ(), tool::holder_of(tool, 200)).value,
-              std::sqrt(5), 1e-6);
+  EXPECT_NEAR(
+      clearance(solid, trace_of(motion), Vector3d::UnitZ(), tool::holder_of(tool, 200)).value,
+      std::sqrt(5), 1e-6);
 }
 
 double uniform(std::mt19937& random, double low, double high) {
