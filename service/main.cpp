@@ -11,6 +11,7 @@
 
 #include "clients/manual/manual.hpp"
 #include "core/base/version.hpp"
+#include "jobs/memory.hpp"
 #include "service/log.hpp"
 #include "service/server.hpp"
 
@@ -135,6 +136,7 @@ int serve(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  jobs::keep_freed_memory();
   Options options;
   options.server.instance = default_instance();
   options.server.limits.workers = std::max(2U, std::thread::hardware_concurrency());

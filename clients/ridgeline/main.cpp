@@ -9,6 +9,7 @@
 #include "clients/ridgeline/commands.hpp"
 #include "clients/ridgeline/files.hpp"
 #include "core/base/version.hpp"
+#include "jobs/memory.hpp"
 
 namespace ridgeline::command {
 namespace {
@@ -92,5 +93,6 @@ int run(int argc, char** argv) {
 }  // namespace ridgeline::command
 
 int main(int argc, char** argv) {
+  ridgeline::jobs::keep_freed_memory();
   return ridgeline::command::run(argc, argv);
 }

@@ -13,6 +13,7 @@
 
 #include "clients/client.hpp"
 #include "jobs/answer.hpp"
+#include "jobs/memory.hpp"
 #include "service/library.hpp"
 #include "tests/bench/service/bare.hpp"
 #include "tests/loopback/network.hpp"
@@ -183,6 +184,7 @@ void compare_large(const Bench& bench, int points) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  jobs::keep_freed_memory();  // as the programs do
   if (argc == 3 && std::string(argv[1]) == "--bare") {
     bench::answer_bare(static_cast<unsigned>(std::stoul(argv[2])));
     return 0;
