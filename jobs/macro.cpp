@@ -86,6 +86,7 @@ Json document_of(const macro::Result& result) {
 Answer run(const MacroJob& job, const Request& request) {
   macro::Options options = job.options;
   options.library = library_of(job);
+  options.named_library = named_library_of(job);
   if (request.format == "trace") options.trace = true;
   const macro::Result result = macro::run(job.program, options, request.progress);
   Answer answer;

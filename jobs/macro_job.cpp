@@ -1,7 +1,10 @@
 #include "jobs/macro_job.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 
+#include "core/macro/parameters.hpp"
 #include "jobs/limits.hpp"
 
 namespace ridgeline::jobs {
@@ -23,6 +26,24 @@ int number_in(const std::string& key, const Value& value, int max) {
   return number;
 }
 
+void read_object(const Value& value) {
+  if (!value.json().is_object()) value.refuse("an object");
+}
+
+/// A name that is not a number with or without O before it, as <NAME> calls it.
+bool is_program_name(const std::string& key) {
+  const std::size_t at = key.starts_with('O') || key.starts_with('o') ? 1 : 0;
+  const bool is_number =
+      at < key.size() && key.find_first_not_of("0123456789", at) == std::string::npos;
+  const bool is_name = std::ranges::all_of(key, [](unsigned char c) { return std::isgraph(c); });
+  return !is_number && is_name && !key.empty() && key[0] != '#';
+}
+
+std::string upper_case(std::string text) {
+  for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  return text;
+}
+
 macro::Profile named_profile(const Value& value) {
   const std::string& name = value.name();
   if (auto profile = macro::profile(name)) return *profile;
@@ -38,6 +59,31 @@ bool read_switch(const Value& value) {
 void read_switches(Object& object, macro::Profile& profile) {
   if (const auto dpi = object.optional("dpi")) profile.calculator_point = read_switch(*dpi);
   if (const auto nat = object.optional("nat")) profile.half_turn_angles = read_switch(*nat);
+}
+
+/// {"6050": 100, "1240": [0, 0, 100], "3401#0": 1}: parameters, those of axes with a value for
+/// each, or single bits of them.
+void read_parameters(const Value& value, macro::Profile& profile) {
+  read_object(value);
+  constexpr int most_axes = 50;
+  for (const auto& [key, json] : value.json().items()) {
+    const Value each(json, value.pointer() + "/" + pointer_token(key));
+    const std::size_t hash = key.find('#', 1);
+    const int number = number_in(key.substr(0, hash), value, 99'999);
+    std::vector<double>& values = profile.parameters[number];
+    if (hash != std::string::npos) {
+      const int bit = number_in(key.substr(hash + 1), value, 7);
+      if (values.empty()) values = {0};
+      const int others = static_cast<int>(values.front()) & ~(1 << bit);
+      values.front() = others | (read_switch(each) ? 1 << bit : 0);
+    } else if (json.is_array()) {
+      values.clear();
+      for (const Value& axis : each.array(1, most_axes)) values.push_back(axis.number());
+    } else {
+      values = {each.number()};
+    }
+  }
+  macro::apply_parameters(profile);
 }
 
 macro::Profile read_profile(const Value& value) {
@@ -71,6 +117,7 @@ macro::Profile read_profile(const Value& value) {
       profile.references[i] = points[i].vector3(coordinate_range);
     }
   }
+  if (const auto parameters = object.optional("parameters")) read_parameters(*parameters, profile);
   object.finish();
   return profile;
 }
@@ -126,10 +173,6 @@ void read_tools(const Value& value, const macro::Profile& profile,
   }
 }
 
-void read_object(const Value& value) {
-  if (!value.json().is_object()) value.refuse("an object");
-}
-
 }  // namespace
 
 MacroJob read_macro_job(Object& job) {
@@ -141,8 +184,12 @@ MacroJob read_macro_job(Object& job) {
   if (const auto programs = job.optional("programs")) {
     read_object(*programs);
     for (const auto& [key, text] : programs->json().items()) {
-      const int number = number_in(key, *programs, max_program_number);
-      read.programs[number] = Value(text, programs->pointer() + "/" + pointer_token(key)).string();
+      std::string source = Value(text, programs->pointer() + "/" + pointer_token(key)).string();
+      if (is_program_name(key)) {
+        read.named_programs[upper_case(key)] = std::move(source);
+      } else {
+        read.programs[number_in(key, *programs, max_program_number)] = std::move(source);
+      }
     }
   }
   macro::Options& options = read.options;
@@ -187,6 +234,15 @@ std::function<std::optional<std::string>(int)> library_of(const MacroJob& job) {
   return [&job](int number) -> std::optional<std::string> {
     const auto found = job.programs.find(number);
     if (found == job.programs.end()) return std::nullopt;
+    return found->second;
+  };
+}
+
+std::function<std::optional<std::string>(const std::string&)> named_library_of(
+    const MacroJob& job) {
+  return [&job](const std::string& name) -> std::optional<std::string> {
+    const auto found = job.named_programs.find(name);
+    if (found == job.named_programs.end()) return std::nullopt;
     return found->second;
   };
 }

@@ -12,9 +12,10 @@ namespace ridgeline::jobs {
 struct MacroJob {
   enum class Operation { Run, Check } operation = Operation::Run;
   std::string program;
-  std::map<int, std::string> programs;  ///< by O number
-  macro::Options options;               ///< without library; see library_of
-  int decimals = 4;                     ///< of expanded G code
+  std::map<int, std::string> programs;                ///< by O number
+  std::map<std::string, std::string> named_programs;  ///< by <NAME>, upper case
+  macro::Options options;                             ///< without library; see library_of
+  int decimals = 4;                                   ///< of expanded G code
 };
 
 /// Reads {"job": "macro", ...} of interfaces.md. Throws Error{BadInput} by field.
@@ -22,5 +23,6 @@ MacroJob read_macro_job(Object& job);
 
 /// Looks programs up in job.programs, which outlives it.
 std::function<std::optional<std::string>(int)> library_of(const MacroJob& job);
+std::function<std::optional<std::string>(const std::string&)> named_library_of(const MacroJob& job);
 
 }  // namespace ridgeline::jobs

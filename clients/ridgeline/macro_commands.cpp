@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 #include <memory>
 #include <vector>
@@ -18,7 +19,7 @@ struct MacroArguments {
   std::string program;
   std::string library;
   std::string profile = "30i";
-  std::vector<std::string> set;
+  std::vector<std::string> set, parameters;
   std::string format = "json";
   std::optional<int> dpi, nat, main;
   bool block_skip = false;
@@ -44,19 +45,49 @@ void add_variable(const std::string& text, Json& set) {
   set[text.substr(begin, equals - begin)] = is_vacant ? Json(nullptr) : Json(number);
 }
 
+// "6050=100", "3401#0=1" for a bit, "1240=0,0,250" for axes.
+void add_parameter(const std::string& text, Json& parameters) {
+  const std::size_t equals = text.find('=');
+  Json values = Json::array();
+  bool is_good = equals != std::string::npos && equals > 0;
+  for (std::size_t at = equals; is_good && at < text.size();) {
+    const std::size_t end = std::min(text.find(',', at + 1), text.size());
+    double number = 0;
+    const auto [rest, error] = std::from_chars(text.data() + at + 1, text.data() + end, number);
+    is_good = error == std::errc() && rest == text.data() + end;
+    values.push_back(number);
+    at = end;
+  }
+  if (!is_good) {
+    throw Error(ErrorCode::BadInput,
+                "--parameter takes a number and a value, e.g. '6050=100', not '" + text + "'");
+  }
+  parameters[text.substr(0, equals)] = values.size() == 1 ? values[0] : values;
+}
+
+// A name, or a file with what differs from one.
+Json profile_document(const MacroArguments& arguments) {
+  Json profile = arguments.profile;
+  if (arguments.profile.ends_with(".json")) profile = read_document(arguments.profile);
+  if (arguments.parameters.empty()) return profile;
+  if (profile.is_string()) profile = {{"name", profile}};
+  if (!profile.is_object()) return profile;  // the reader of the job names what is wrong
+  Json& parameters = profile["parameters"];
+  if (!parameters.is_object()) parameters = Json::object();
+  for (const std::string& each : arguments.parameters) add_parameter(each, parameters);
+  return profile;
+}
+
 Json macro_document(const MacroArguments& arguments, const char* operation) {
   Json job = {{"job", "macro"},
               {"operation", operation},
               {"program", read_file(arguments.program)},
-              {"profile", arguments.profile}};
+              {"profile", profile_document(arguments)}};
   if (arguments.dpi) job["opts"]["dpi"] = *arguments.dpi;
   if (arguments.nat) job["opts"]["nat"] = *arguments.nat;
   if (!arguments.library.empty()) {
-    Json programs = Json::object();
-    for (auto& [number, text] : read_programs(arguments.library)) {
-      programs[std::to_string(number)] = std::move(text);
-    }
-    job["programs"] = std::move(programs);
+    job["programs"] =
+        read_programs(arguments.library, job.at("program").get_ref<const std::string&>());
   }
   return job;
 }
@@ -93,8 +124,13 @@ void add_control(CLI::App& command, MacroArguments& arguments) {
       .add_option("--library-dir", arguments.library,
                   "Folder of the programs that it may call (O9100, O9100.nc, 9100.nc)")
       ->type_name("DIR");
-  command.add_option("--profile", arguments.profile, "Control: 16i, 18i, 0i or 30i")
+  command
+      .add_option("--profile", arguments.profile, "Control: 16i, 18i, 0i or 30i, or a JSON file")
       ->capture_default_str();
+  command
+      .add_option("--parameter", arguments.parameters,
+                  "Parameter of the control, e.g. 6050=100, 3401#0=1; repeatable")
+      ->allow_extra_args(false);
   command.add_option("--dpi", arguments.dpi, "1: X10 without a point is 10 mm, not 0.010 mm")
       ->check(CLI::Range(0, 1));
   command.add_option("--nat", arguments.nat, "1: ATAN gives -180 to 180 and ASIN -90 to 90")

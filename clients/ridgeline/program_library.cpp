@@ -17,6 +17,15 @@ bool begins_with_O(const std::string& name) {
   return !name.empty() && (name.front() == 'O' || name.front() == 'o');
 }
 
+constexpr std::size_t longest_name = 31;
+
+bool is_program_name(const std::string& name) {
+  return !name.empty() && name.size() <= longest_name &&
+         std::all_of(name.begin(), name.end(), [](unsigned char c) {
+           return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '+' || c == '.';
+         });
+}
+
 }  // namespace
 
 int program_number(const std::string& file_name) {
@@ -29,7 +38,8 @@ int program_number(const std::string& file_name) {
   return is_number ? std::stoi(digits) : -1;
 }
 
-std::map<int, std::string> read_programs(const std::string& folder) {
+std::map<std::string, std::string> read_programs(const std::string& folder,
+                                                 const std::string& main) {
   std::error_code error;
   std::vector<std::filesystem::path> files;
   for (std::filesystem::directory_iterator each(folder, error), end; !error && each != end;
@@ -44,10 +54,20 @@ std::map<int, std::string> read_programs(const std::string& folder) {
     const std::string x = a.filename().string(), y = b.filename().string();
     return std::pair(begins_with_O(x), x) < std::pair(begins_with_O(y), y);
   });
-  std::map<int, std::string> programs;
+  std::map<std::string, std::string> programs;
+  const auto calls_names = [](const std::string& text) { return text.find('<') != text.npos; };
+  bool has_names = calls_names(main);
   for (const std::filesystem::path& file : files) {
     const int number = program_number(file.filename().string());
-    if (number >= 0) programs[number] = read_file(file.string());
+    if (number < 0) continue;
+    std::string& text = programs[std::to_string(number)] = read_file(file.string());
+    has_names = has_names || calls_names(text);
+  }
+  if (!has_names) return programs;
+  for (const std::filesystem::path& file : files) {
+    const std::string name = file.stem().string();
+    if (program_number(name) < 0 && is_program_name(name))
+      programs[name] = read_file(file.string());
   }
   return programs;
 }

@@ -68,7 +68,7 @@ std::int32_t BlockParser::sequence_number() {
 void BlockParser::statement(Block& block) {
   if (line_.at_end()) {
     if (block.label >= 0) program_.blocks.push_back(block);
-  } else if (line_.peek() == '#') {
+  } else if (line_.peek() == '#' || (line_.peek() == '[' && line_.peek(1) == '#')) {
     assignment(block);
   } else if (is_letter(line_.peek(1)) && is_letter(line_.peek())) {
     keyword(block);
@@ -93,8 +93,10 @@ void BlockParser::keyword(Block& block) {
     jump(block, BlockKind::Goto);
   } else if (line_.rest().starts_with("DPRNT")) {
     print(block);
+  } else if (line_.rest().starts_with("SETVN")) {
+    names(block);
   } else if (line_.rest().starts_with("POPEN") || line_.rest().starts_with("PCLOS") ||
-             line_.rest().starts_with("BPRNT") || line_.rest().starts_with("SETVN")) {
+             line_.rest().starts_with("BPRNT")) {
     block.kind = BlockKind::Ignored;
     line_.skip(line_.rest().size());
     finish(block);
@@ -116,9 +118,13 @@ void BlockParser::leftover() {
 }
 
 void BlockParser::assignment(Block& block) {
+  const bool is_in_brackets = line_.take_if('[');  // [#NAME] = ..
   line_.skip(1);
   block.kind = BlockKind::Assign;
   block.variable = expression_.variable_number(block.goto_code);
+  if (is_in_brackets && !line_.take_if(']')) {
+    raise(AlarmNumber::ExpressionFormat, "] is expected", line_.column());
+  }
   if (!line_.take_if('=')) {
     raise(AlarmNumber::ExpressionFormat, "= is expected", line_.column());
   }
@@ -151,7 +157,7 @@ void BlockParser::conditional(Block& block) {
 
 // One macro statement; M98, M99 and G65 count as such.
 void BlockParser::consequence(Block& then) {
-  if (line_.peek() == '#') {
+  if (line_.peek() == '#' || (line_.peek() == '[' && line_.peek(1) == '#')) {
     assignment(then);
   } else if (line_.rest().starts_with("GO")) {
     keyword(then);
@@ -233,6 +239,30 @@ void BlockParser::print(Block& block) {
   finish(block);
 }
 
+// SETVN 510[NAME, ...]: names #510 and those after it.
+void BlockParser::names(Block& block) {
+  block.kind = BlockKind::Name;
+  line_.skip(5);
+  line_.take_if('#');
+  const std::uint16_t column = line_.column();
+  block.variable = static_cast<std::int32_t>(line_.take_number(profile_.literal_digits).value);
+  if (!line_.take_if('[')) raise(AlarmNumber::MacroFormat, "SETVN n[NAME, ..]", column);
+  block.first_word = static_cast<std::uint32_t>(program_.words.size());
+  do {
+    Word word;
+    word.column = line_.column();
+    word.letter = '<';
+    word.number = expression_.name();
+    if (program_.names.back().starts_with('_') || is_digit(program_.names.back()[0])) {
+      raise(AlarmNumber::MacroFormat, "a name of a variable begins with a letter", word.column);
+    }
+    program_.words.push_back(word);
+    ++block.words;
+  } while (line_.take_if(','));
+  if (!line_.take_if(']')) raise(AlarmNumber::MacroFormat, "] is expected", line_.column());
+  finish(block);
+}
+
 // [ab]: a digits before and b after the point.
 int BlockParser::print_format() {
   if (!line_.take_if('[')) raise(AlarmNumber::MacroFormat, "[ab] is expected", line_.column());
@@ -278,6 +308,13 @@ void BlockParser::classify(Block& block, const Word& word) const {
 Word BlockParser::word() {
   Word word;
   word.column = line_.column();
+  if (line_.peek() == 'P' && line_.peek(1) == '<') line_.skip(1);
+  if (line_.peek() == '<') {
+    word.letter = '<';
+    word.flags = Word::is_literal;
+    word.number = expression_.name();
+    return word;
+  }
   word.letter = line_.take();
   if (word.letter == ',' && (line_.peek() == 'R' || line_.peek() == 'C')) {
     word.letter = line_.take() == 'R' ? 'r' : 'c';

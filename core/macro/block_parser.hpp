@@ -13,10 +13,7 @@ namespace ridgeline::macro {
 class BlockParser {
 public:
   BlockParser(LineReader& line, Program& program, const Profile& profile)
-      : line_(line),
-        program_(program),
-        expression_(line, program.code, profile),
-        profile_(profile) {}
+      : line_(line), program_(program), expression_(line, program, profile), profile_(profile) {}
 
   /// Appends one block, two or more for IF..THEN, none for a line without content. A block that
   /// cannot be read becomes Faulty.
@@ -37,6 +34,7 @@ private:
   std::int32_t loop_number();
   void jump(Block& block, BlockKind kind);
   void print(Block& block);
+  void names(Block& block);
   int print_format();
   void nc(Block& block);
   void classify(Block& block, const Word& word) const;

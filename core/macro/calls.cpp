@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -42,6 +43,7 @@ void Runner::load(std::string text) {
     programs_.push_back(std::move(program));
     const Program& kept = programs_.back();
     by_number_.emplace(kept.number, &kept);
+    if (!kept.name.empty()) by_name_.emplace(kept.name, &kept);
     note_commons(kept);
   }
 }
@@ -103,40 +105,78 @@ void Runner::push(Frame frame, int column) {
   frames_.push_back(std::move(frame));
 }
 
-// G65 and G66: words before the G code act as in any block, those after it are arguments.
-Runner::Arguments Runner::read_arguments(const Program& program, const Block& block,
-                                         std::int64_t& repeats, int& number, int& number_column) {
-  Arguments arguments;
+// <NAME>; <O123> is O123.
+const Program& Runner::find(const std::string& name, int column) {
+  int number = 0;
+  const char* const end = name.data() + name.size();
+  if (name.size() > 1 && name[0] == 'O') {
+    const auto [rest, error] = std::from_chars(name.data() + 1, end, number);
+    if (error == std::errc() && rest == end) return find(number, column);
+  }
+  const auto found = by_name_.find(name);
+  if (found != by_name_.end()) return *found->second;
+  if (options_.named_library) {
+    if (std::optional<std::string> text = options_.named_library(name)) {
+      const std::size_t first = programs_.size();
+      load(std::move(*text));
+      return *by_name_.emplace(name, &programs_[first]).first->second;
+    }
+  }
+  raise(AlarmNumber::NumberNotFound, "<" + readable(name) + ">", column);
+}
+
+const Program& Runner::called_by(const Program& program, const Call& call) {
+  if (call.name >= 0) {
+    return find(program.names[static_cast<std::size_t>(call.name)], call.column);
+  }
+  if (call.number < 0) raise(AlarmNumber::NoProgramNumber, {}, call.column);
+  return find(call.number, call.column);
+}
+
+Runner::Call Runner::read_call(const Program& program, const Block& block) {
+  return read_call(program, block, 'G', 65, 66);
+}
+
+// Words before the code (from low to high) act as in any block, those after it are arguments.
+Runner::Call Runner::read_call(const Program& program, const Block& block, char letter, double low,
+                               double high) {
+  Call call;
+  Arguments& arguments = call.arguments;
   const double step = increment(state_);
   arguments.scale = 1 / step;
   ArgumentSets sets;
   bool is_after = false;
-  number = -1;
+  call.column = block.column;
   for (std::uint32_t i = 0; i < block.words; ++i) {
     const Word& word = program.words[block.first_word + i];
     const bool is_literal = (word.flags & Word::is_literal) != 0;
+    const Value value = is_literal ? Value(word.number) : evaluate(program, word.code, variables_);
     if (!is_after) {
-      is_after = word.letter == 'G' && is_literal && (word.number == 65 || word.number == 66);
+      is_after = word.letter == letter && value.number >= low && value.number <= high;
       if (!is_after && word.letter != 'G' && word.letter != 'M') {
-        raise(AlarmNumber::MacroFormat, "arguments come after G65 and G66", word.column);
+        raise(AlarmNumber::MacroFormat, "arguments come after the code that calls", word.column);
       }
       continue;
     }
-    const Value value = is_literal ? Value(word.number) : evaluate(program, word.code, variables_);
+    if (word.letter == '<') {
+      call.name = static_cast<int>(word.number);
+      call.column = word.column;
+      continue;
+    }
     if (word.letter == 'P' || word.letter == 'L') {
       if (value.vacant) continue;
       const std::int64_t integer = rounded_integer(value.number, word.column);
       if (word.letter == 'L') {
-        repeats = integer;
+        call.repeats = integer;
       } else {
-        number = static_cast<int>(std::clamp<std::int64_t>(integer, -1, 999999999));
-        number_column = word.column;
+        call.number = static_cast<int>(std::clamp<std::int64_t>(integer, -1, 999999999));
+        call.column = word.column;
       }
       continue;
     }
     if (word.letter == 'N' || word.letter == 'O') continue;
     if (word.letter == 'G') {
-      raise(AlarmNumber::GAsArgument, "a computed G", word.column);
+      raise(AlarmNumber::GAsArgument, "G after the code that calls", word.column);
     }
     if (word.letter == 'c' || word.letter == 'r') {
       raise(AlarmNumber::MacroFormat, ",C and ,R are no arguments", word.column);
@@ -154,28 +194,29 @@ Runner::Arguments Runner::read_arguments(const Program& program, const Block& bl
       arguments.undotted |= std::uint64_t{1} << v;
     }
   }
-  if (number < 0) raise(AlarmNumber::NoProgramNumber, {}, block.column);
-  return arguments;
+  return call;
 }
 
 void Runner::call_macro(Frame& frame, const Block& block) {
+  Call call = read_call(*frame.program, block);
   Frame called;
   called.kind = FrameKind::Macro;
-  int number = 0, column = block.column;
-  called.arguments = read_arguments(*frame.program, block, called.repeats, number, column);
-  called.program = &find(number, column);
-  push(std::move(called), column);
+  called.program = &called_by(*frame.program, call);
+  called.repeats = call.repeats;
+  called.arguments = std::move(call.arguments);
+  push(std::move(called), call.column);
 }
 
 void Runner::call_modal(Frame& frame, const Block& block) {
-  ModalCall call;
-  int number = 0, column = block.column;
-  call.arguments = read_arguments(*frame.program, block, call.repeats, number, column);
-  call.program = &find(number, column);
+  Call call = read_call(*frame.program, block);
+  add_modal(called_by(*frame.program, call), call, block.column);
+}
+
+void Runner::add_modal(const Program& program, const Call& call, int column) {
   if (modal_calls_.size() >= static_cast<std::size_t>(options_.profile.macro_levels)) {
-    raise(AlarmNumber::TooManyMacroLevels, "G66", block.column);
+    raise(AlarmNumber::TooManyMacroLevels, "G66", column);
   }
-  modal_calls_.push_back(std::move(call));
+  modal_calls_.push_back({&program, call.repeats, call.arguments});
   state_.modal.modal_call = 660;
 }
 
@@ -193,24 +234,44 @@ void Runner::after_move() {
   push(std::move(called), 0);
 }
 
-// M98 Ppppp Lr, or P(rrr)pppp when there is no program of the whole number.
-void Runner::call_subprogram() {
-  if (!words_.has('P')) raise(AlarmNumber::NoProgramNumber, "M98", block_->column);
+// M98 Ppppp Lr, M98 <NAME> Lr, or P(rrr)pppp when there is no program of the whole number. With Q
+// it begins at that sequence number; without P, in the program that calls.
+void Runner::call_subprogram(const Program& program) {
+  Frame called;
+  called.kind = FrameKind::Subprogram;
+  if (words_.has('L')) called.repeats = rounded_integer(words_['L'], words_.column_of('L'));
+  if (words_.name >= 0) {
+    called.program = &find(program.names[static_cast<std::size_t>(words_.name)], block_->column);
+  } else if (words_.has('P')) {
+    called.program = &numbered_subprogram(called.repeats);
+  } else if (words_.has('Q')) {
+    called.program = &program;
+  } else {
+    raise(AlarmNumber::NoProgramNumber, "M98", block_->column);
+  }
+  if (words_.has('Q')) {
+    const int column = words_.column_of('Q');
+    const std::int64_t label = rounded_integer(words_['Q'], column);
+    const bool is_possible = label >= 1 && label <= 99999999;
+    called.first = is_possible ? goto_target(*called.program, static_cast<int>(label), -1) : -1;
+    if (called.first < 0) raise(AlarmNumber::NumberNotFound, numbered("N", label), column);
+    called.next = called.first;
+  }
+  push(std::move(called), block_->column);
+}
+
+const Program& Runner::numbered_subprogram(std::int64_t& repeats) {
   const int column = words_.column_of('P');
   const std::int64_t P = rounded_integer(words_['P'], column);
   if (P < 0 || P > 999999999) raise(AlarmNumber::NumberNotFound, numbered("O", P), column);
-  Frame called;
-  called.kind = FrameKind::Subprogram;
   int number = static_cast<int>(P);
-  if (words_.has('L')) {
-    called.repeats = rounded_integer(words_['L'], words_.column_of('L'));
-  } else if (P > 9999 && loaded(number) == nullptr &&
-             !(options_.library && options_.library(number))) {
-    called.repeats = P / 10000;
+  const bool has_repeats = !words_.has('L') && P > 9999 && loaded(number) == nullptr &&
+                           !(options_.library && options_.library(number));
+  if (has_repeats) {
+    repeats = P / 10000;
     number = static_cast<int>(P % 10000);
   }
-  called.program = &find(number, column);
-  push(std::move(called), column);
+  return find(number, column);
 }
 
 void Runner::return_from(bool to_label) {
@@ -224,7 +285,7 @@ void Runner::return_from(bool to_label) {
     const bool is_macro = done.kind == FrameKind::Macro || done.kind == FrameKind::Modal;
     if (!to_label && done.repeats > 1) {
       --done.repeats;
-      done.next = 0;
+      done.next = done.first;
       if (is_macro) variables_.reset_level(done.arguments.values);
       return;
     }

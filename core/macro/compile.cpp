@@ -14,11 +14,54 @@ char upper(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
 
+// A file from a control whose blocks end with CR alone.
+std::string with_line_ends(std::string text) {
+  if (text.find('\n') == std::string::npos) std::ranges::replace(text, '\r', '\n');
+  return text;
+}
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\0' || c == '\v' || c == '\f';
+}
+
+// Where the blocks of a text begin: the leader of a tape, before its first %, is not read. It is
+// one when a program head follows the % and none stands before it, nor the end of a program.
+std::size_t begin_of(const std::string& text) {
+  const std::size_t begin = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  const auto is_head = [&](std::size_t at) {
+    if (at + 1 >= text.size()) return false;
+    const char next = text[at + 1];
+    const bool has_number = upper(text[at]) == 'O' || text[at] == ':';
+    return text[at] == '<' || (has_number && (is_digit(next) || next == '<'));
+  };
+  bool begins_line = true;
+  for (std::size_t at = begin; at < text.size(); ++at) {
+    const char c = text[at];
+    if (c == '\n') begins_line = true;
+    if (is_blank(c) || c == '\n' || c == '/') continue;
+    if (begins_line && c == '%') {
+      std::size_t next = at;
+      while (next < text.size() && (is_blank(text[next]) || text[next] == '%' ||
+                                    text[next] == ';' || text[next] == '\n')) {
+        ++next;
+      }
+      return is_head(next) ? at : begin;
+    }
+    if (begins_line && is_head(at)) return begin;
+    begins_line = false;
+    if (upper(c) != 'M') continue;
+    const std::string_view code = std::string_view(text).substr(at + 1, 2);
+    if (code == "30" || code == "99" || code == "02") return begin;
+  }
+  return begin;
+}
+
 /// Splits a text into programs and blocks.
 class TextCompiler {
 public:
   TextCompiler(std::string text, const Profile& profile)
-      : source_(std::make_shared<const std::string>(std::move(text))), profile_(profile) {
+      : source_(std::make_shared<const std::string>(with_line_ends(std::move(text)))),
+        profile_(profile) {
     open_program(0, 1);
     // Room for a long main program, so that it is not copied while it grows.
     const auto lines = std::count(source_->begin(), source_->end(), '\n');
@@ -28,14 +71,16 @@ public:
 
   std::vector<Program> run() {
     const std::string& text = *source_;
-    std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
-    for (std::uint32_t line = 1; at < text.size(); ++line) {
+    std::size_t at = begin_of(text);
+    const auto skipped = std::count(text.begin(), text.begin() + static_cast<long>(at), '\n');
+    for (auto line = static_cast<std::uint32_t>(skipped + 1); at < text.size(); ++line) {
       const std::size_t end = std::min(text.find('\n', at), text.size());
       split_line(at, end, line);
       at = end + 1;
     }
     close_program();
-    if (programs_.size() > 1 && programs_.front().blocks.empty() && programs_.front().number == 0) {
+    if (programs_.size() > 1 && programs_.front().blocks.empty() && programs_.front().number == 0 &&
+        programs_.front().name.empty()) {
       programs_.erase(programs_.begin());
     }
     return std::move(programs_);
@@ -92,7 +137,11 @@ private:
         any = true;
         reader_.clear();
         if (!starts_block(text, i + 1, end)) return;
-      } else if (c != ' ' && c != '\t' && c != '\r' && c != '\0' && c != '\v' && c != '\f') {
+      } else if (c == '%' && !reader_.at_end() && reader_.peek() != '%') {  // M30%
+        add_block(block);
+        reader_.clear();
+        reader_.add(c, i - begin + 1);
+      } else if (!is_blank(c)) {
         reader_.add(upper(c), i - begin + 1);
       }
     }
@@ -130,16 +179,17 @@ private:
     return !has_head;
   }
 
-  // <NAME> or O<NAME>, a program without a number.
+  // <NAME> or O<NAME>, a program without a number; words may follow on the line.
   bool program_name(const Block& block) {
     const std::size_t at = reader_.peek() == 'O' ? 1 : 0;
     if (reader_.peek(at) != '<') return false;
-    if (!programs_.back().blocks.empty() || programs_.back().number != 0) {
-      close_program();
-      open_program(0, static_cast<int>(block.line));
-    }
-    after_end_ = false;
-    return true;
+    reader_.skip(at + 1);
+    std::string name;
+    while (!reader_.at_end() && reader_.peek() != '>') name += reader_.take();
+    reader_.take_if('>');
+    begin_program(0, block);
+    programs_.back().name = std::move(name);
+    return reader_.at_end();
   }
 
   // O1234 or :1234 begins a program; words may follow on the line.
@@ -152,15 +202,20 @@ private:
     while (is_digit(reader_.peek())) {
       number = std::min<std::int64_t>(number * 10 + (reader_.take() - '0'), 99999999);
     }
-    if (programs_.back().blocks.empty() && programs_.back().number == 0) {
-      programs_.back().number = static_cast<int>(number);
+    begin_program(static_cast<int>(number), block);
+    return reader_.at_end();
+  }
+
+  void begin_program(int number, const Block& block) {
+    const Program& last = programs_.back();
+    if (last.blocks.empty() && last.number == 0 && last.name.empty()) {
+      programs_.back().number = number;
       programs_.back().line = static_cast<int>(block.line);
     } else {
       close_program();
-      open_program(static_cast<int>(number), static_cast<int>(block.line));
+      open_program(number, static_cast<int>(block.line));
     }
     after_end_ = false;
-    return reader_.at_end();
   }
 
   std::shared_ptr<const std::string> source_;

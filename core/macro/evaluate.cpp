@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/base/angle.hpp"
+#include "core/macro/parameters.hpp"
 #include "core/macro/text.hpp"
 #include "core/macro/variables.hpp"
 
@@ -203,6 +204,27 @@ Value evaluate(const Program& program, std::int32_t code, const Variables& varia
         const Operand& right = stack[top - 1];
         const bool equal = left.number == right.number && left.vacant == right.vacant;
         stack[--top - 1] = {equal == (at->op == Op::Equal) ? 1.0 : 0.0, false};
+        break;
+      }
+      case Op::NameNumber: {
+        const std::string& name = program.names[static_cast<std::size_t>(at->index)];
+        stack[top++] = {static_cast<double>(variables.named(name, at->column)), false};
+        break;
+      }
+      case Op::Subscript: {
+        const std::int64_t n = rounded_integer(stack[top - 1].number, at->column);
+        if (n < 0 || static_cast<double>(n) > at->number) {
+          raise(AlarmNumber::VariableNumber, "subscript out of range", at->column);
+        }
+        stack[top - 1] = {static_cast<double>(at->index + n), false};
+        break;
+      }
+      case Op::Parameter: {
+        ParameterPlace place;
+        if ((at->index & 2) != 0) place.axis = rounded_integer(stack[--top].number, at->column);
+        if ((at->index & 1) != 0) place.bit = rounded_integer(stack[--top].number, at->column);
+        place.number = rounded_integer(stack[top - 1].number, at->column);
+        stack[top - 1] = {parameter(profile, place, at->column), false};
         break;
       }
       case Op::Adp: stack[top++] = {variables.point_added(at->index), false}; break;

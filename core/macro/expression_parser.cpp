@@ -1,7 +1,9 @@
 #include "core/macro/expression_parser.hpp"
+#include "core/macro/names.hpp"
 #include "core/macro/text.hpp"
 
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -39,6 +41,13 @@ constexpr std::array<std::pair<std::string_view, Op>, 6> comparisons = {{
     {"LE", Op::LessEqual},
 }};
 
+bool begins_name(char c) {
+  return is_letter(c) || c == '_' || c == '<';
+}
+bool is_of_name(char c) {
+  return is_letter(c) || is_digit(c) || c == '_';
+}
+
 }  // namespace
 
 std::int32_t ExpressionParser::value() {
@@ -71,6 +80,13 @@ std::int32_t ExpressionParser::signed_operand() {
 
 std::int32_t ExpressionParser::variable_number(std::int32_t& index_code) {
   const std::uint16_t column = line_.column();
+  if (at_name()) {
+    index_code = static_cast<std::int32_t>(code_.size());
+    const std::int32_t number = named_variable();
+    if (number >= 0) return number;
+    emit(Op::Return, column);
+    return -1;
+  }
   if (line_.peek() == '[') {
     index_code = static_cast<std::int32_t>(code_.size());
     open();
@@ -89,6 +105,58 @@ std::int32_t ExpressionParser::variable_number(std::int32_t& index_code) {
   }
   if (line_.peek() == '.') raise(AlarmNumber::IllegalPoint, "in a variable number", line_.column());
   return static_cast<std::int32_t>(number);
+}
+
+// As FANUC writes it, DATE in [#_DATE], and as others do, <DATE>.
+std::int32_t ExpressionParser::name() {
+  const std::uint16_t column = line_.column();
+  const bool is_in_angles = line_.take_if('<');
+  std::string text;
+  while (is_in_angles ? line_.peek() != '>' && !line_.at_end() : is_of_name(line_.peek())) {
+    text += line_.take();
+  }
+  if (is_in_angles && !line_.take_if('>')) {
+    raise(AlarmNumber::AddressNotFound, "> is expected", line_.column());
+  }
+  if (text.empty() || text.size() > longest_name) {
+    raise(AlarmNumber::AddressNotFound, numbered("a name of 1 to ", longest_name) + " characters",
+          column);
+  }
+  program_.names.push_back(std::move(text));
+  return static_cast<std::int32_t>(program_.names.size()) - 1;
+}
+
+// A name, or the name of a system variable in brackets: nobody means the variable of its value.
+bool ExpressionParser::at_name() const {
+  return begins_name(line_.peek()) || line_.rest().starts_with("[#_");
+}
+
+// The number when it is known, or -1 and code that pushes it.
+std::int32_t ExpressionParser::named_variable() {
+  if (line_.peek() == '[') {
+    open();
+    line_.skip(1);
+    const std::int32_t number = named_variable();
+    close();
+    return number;
+  }
+  const std::uint16_t column = line_.column();
+  const std::int32_t index = name();
+  const std::string& text = program_.names[static_cast<std::size_t>(index)];
+  const std::optional<SystemName> system = system_name(text);
+  if (!system) {
+    if (text.starts_with('_')) raise(AlarmNumber::VariableNumber, "#" + text, column);
+    emit(Op::NameNumber, column, index);
+    return -1;
+  }
+  if (system->count == 1) return system->first;
+  open();
+  require_number(sum(), column);
+  close();
+  emit(Op::Literal, column, 0, system->base);
+  emit(Op::Subtract, column);
+  emit(Op::Subscript, column, system->first, system->count - 1);
+  return -1;
 }
 
 void ExpressionParser::emit(Op op, std::uint16_t column, std::int32_t index, double number) {
@@ -234,23 +302,50 @@ ExpressionParser::Type ExpressionParser::primary() {
 
 void ExpressionParser::variable() {
   const std::uint16_t column = line_.column();
-  if (line_.peek() == '[') {
+  std::int32_t number = 0, none = 0;
+  if (at_name()) {
+    number = named_variable();
+    if (number < 0) return emit(Op::Indirect, column);
+  } else if (line_.peek() == '[') {
     open();
     require_number(sum(), column);
     close();
-    emit(Op::Indirect, column);
-    return;
+    return emit(Op::Indirect, column);
+  } else {
+    number = variable_number(none);
   }
-  std::int32_t none = 0;
-  const std::int32_t number = variable_number(none);
   const bool is_local = number >= 1 && number <= 33;
   const bool is_common = (number >= 100 && number <= profile_.last_low_common) ||
                          (number >= 500 && number <= profile_.last_high_common);
   emit(is_local ? Op::Local : is_common ? Op::Common : Op::System, column, number);
 }
 
+// PRM[number], PRM[number, bit], and with an axis PRM[number]/[axis], PRM[number, bit]/[axis].
+void ExpressionParser::parameter(std::uint16_t column) {
+  std::int32_t parts = 0;
+  open();
+  require_number(sum(), column);
+  if (line_.take_if(',')) {
+    parts |= 1;
+    require_number(sum(), column);
+  }
+  close();
+  if (line_.peek() == '/' && line_.peek(1) == '[') {
+    parts |= 2;
+    line_.skip(1);
+    open();
+    require_number(sum(), column);
+    close();
+  }
+  emit(Op::Parameter, column, parts);
+}
+
 void ExpressionParser::function() {
   const std::uint16_t column = line_.column();
+  if (take_operator("PRM[")) {
+    line_.back();
+    return parameter(column);
+  }
   Op op = Op::Return;
   for (const auto& [name, candidate] : functions) {
     std::size_t matched = 0;

@@ -13,8 +13,8 @@ namespace ridgeline::macro {
 /// and raises AlarmRaised with the column.
 class ExpressionParser {
 public:
-  ExpressionParser(LineReader& line, std::vector<Instruction>& code, const Profile& profile)
-      : line_(line), code_(code), profile_(profile) {}
+  ExpressionParser(LineReader& line, Program& program, const Profile& profile)
+      : line_(line), program_(program), code_(program.code), profile_(profile) {}
 
   /// A value: must not be a condition.
   std::int32_t value();
@@ -24,6 +24,8 @@ public:
   std::int32_t signed_operand();
   /// After '#': a plain number >= 0, or -1 when the number is computed by `index_code`.
   std::int32_t variable_number(std::int32_t& index_code);
+  /// A name of letters, digits and _, its index in Program::names. Raises `AddressNotFound`.
+  std::int32_t name();
 
 private:
   enum class Type { Number, Condition };
@@ -33,7 +35,10 @@ private:
   Type factor();
   Type primary();
   void variable();
+  std::int32_t named_variable();
+  bool at_name() const;
   void function();
+  void parameter(std::uint16_t column);
   void emit(Op op, std::uint16_t column, std::int32_t index = 0, double number = 0);
   void open();
   void close();
@@ -42,6 +47,7 @@ private:
   static void require_number(Type type, std::uint16_t column);
 
   LineReader& line_;
+  Program& program_;
   std::vector<Instruction>& code_;
   const Profile& profile_;
   int depth_ = 0;

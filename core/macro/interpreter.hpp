@@ -28,6 +28,8 @@ struct Options {
   std::map<int, Value> set;
   /// Text of a program that the main text does not hold; it may hold others too.
   std::function<std::optional<std::string>(int number)> library;
+  /// The same of a program <NAME>, in upper case without blanks.
+  std::function<std::optional<std::string>(const std::string& name)> named_library;
   std::optional<int> program;  ///< O number to run; default: the first of the text
   bool block_skip = false;     ///< leave out blocks that begin with /
   bool trace = false;

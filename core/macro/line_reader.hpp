@@ -29,6 +29,7 @@ public:
   }
   char take() { return at_ < chars_.size() ? chars_[at_++] : '\0'; }
   void skip(std::size_t count) { at_ += count; }
+  void back() { --at_; }
   bool take_if(char c) {
     if (peek() != c) return false;
     ++at_;

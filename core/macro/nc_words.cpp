@@ -36,6 +36,7 @@ void read_words(const Program& program, const Block& block, const Variables& var
                 NcWords& words) {
   words.present = words.scaled = 0;
   words.g_count = words.m_count = 0;
+  words.name = -1;
   const Word* const end = program.words.data() + block.first_word + block.words;
   const bool scales = !variables.profile().calculator_point;
   for (const Word* word = program.words.data() + block.first_word; word != end; ++word) {
@@ -45,7 +46,9 @@ void read_words(const Program& program, const Block& block, const Variables& var
       if (value.vacant) continue;
       number = value.number;
     }
-    if (word->letter == 'G') {
+    if (word->letter == '<') {
+      words.name = static_cast<int>(number);
+    } else if (word->letter == 'G') {
       add_g(words, number, word->column);
     } else if (word->letter == 'M') {
       add_m(words, number, *word);

@@ -18,6 +18,7 @@ struct NcWords {
   std::array<int, max_codes> g;  ///< G codes in tenths
   std::array<std::uint16_t, max_codes> g_column;
   std::array<int, max_codes> m;
+  int name = -1;  ///< of a program, index into Program::names; -1: none
   int g_count = 0;
   int m_count = 0;
 

@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace ridgeline::macro {
 
@@ -13,6 +15,20 @@ enum class OffsetMemory {
   A,  ///< one value
   B,  ///< geometry and wear, H and D share
   C   ///< geometry and wear of H and of D
+};
+
+/// Codes that call a program, as parameters of the control set them: code to O number.
+struct CodeCalls {
+  std::map<int, int> g_macros;        ///< 6050..6059: O9010.., 6038, 6041; G codes in tenths
+  std::map<int, int> g_modal_macros;  ///< the same with a minus: as G66
+  std::map<int, int> m_macros;        ///< 6080..6089: O9020.., 6047
+  std::map<int, int> m_subprograms;   ///< 6071..6079: O9001.., 6044
+  bool t_subprogram = false;          ///< 6001#5 TCS: T calls O9000 with #149
+
+  bool is_empty() const {
+    return g_macros.empty() && g_modal_macros.empty() && m_macros.empty() &&
+           m_subprograms.empty() && !t_subprogram;
+  }
 };
 
 /// What differs between controls, and what a control's parameters choose. mm, mm/min.
@@ -39,6 +55,9 @@ struct Profile {
   std::array<Eigen::Vector3d, 4> references = {
       Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
       Eigen::Vector3d::Zero()};  ///< G28, G30 P2..P4 [mm, machine]
+  /// Parameters that a caller gives, by number; those of axes hold a value for each.
+  std::map<int, std::vector<double>> parameters;
+  CodeCalls calls;
 };
 
 /// "16i", "18i", "0i" or "30i" (also "31i", "32i"); nullopt for another name.

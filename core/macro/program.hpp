@@ -54,7 +54,10 @@ enum class Op : std::uint8_t {
   Ln,
   Exp,
   Pow,
-  Adp
+  Adp,
+  NameNumber,  ///< push the number of the common variable that SETVN named `index` of names
+  Subscript,   ///< replace the top, n, by `index` + n; n from 0 to `number`
+  Parameter    ///< PRM; `index`: bit 0 a bit number, bit 1 an axis on the stack above the number
 };
 
 struct Instruction {
@@ -64,7 +67,8 @@ struct Instruction {
   double number = 0;
 };
 
-/// One address with its value, e.g. X12.5, G#8, Y-[#1*2].
+/// One address with its value, e.g. X12.5, G#8, Y-[#1*2]. '<' is a program name of M98, G65, G66:
+/// `number` is its index in Program::names.
 struct Word {
   static constexpr std::uint8_t is_literal = 1, has_point = 2;
   char letter = 0;  ///< upper case; 'c' and 'r' stand for ,C and ,R
@@ -87,7 +91,8 @@ enum class BlockKind : std::uint8_t {
   Call,       ///< G65
   ModalCall,  ///< G66
   Print,      ///< DPRNT
-  Ignored,    ///< POPEN, PCLOS, BPRNT, SETVN
+  Name,       ///< SETVN: `words` names from `first_word` on, for `variable` and those after it
+  Ignored,    ///< POPEN, PCLOS, BPRNT
   Faulty      ///< raises alarm `target` of Program::alarms when it is reached
 };
 
@@ -114,14 +119,16 @@ struct Label {
 
 /// One O program, compiled.
 struct Program {
-  int number = 0;  ///< 0: no O number
-  int line = 1;    ///< of the O word
+  int number = 0;    ///< 0: no O number
+  std::string name;  ///< of a program <NAME>
+  int line = 1;      ///< of the O word
   std::shared_ptr<const std::string> source;
   std::vector<Block> blocks;
   std::vector<Word> words;
   std::vector<Instruction> code;
-  std::vector<Alarm> alarms;  ///< of Faulty blocks
-  std::vector<Label> labels;  ///< by number, then by block
+  std::vector<Alarm> alarms;       ///< of Faulty blocks
+  std::vector<Label> labels;       ///< by number, then by block
+  std::vector<std::string> names;  ///< of variables and programs, as its blocks say them
 };
 
 /// Compiles a text, which may hold several O programs, with or without % marks. Never fails:

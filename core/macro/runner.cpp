@@ -82,7 +82,7 @@ void Runner::prepare() {
                                " is read while a control still moves, unless a block before it "
                                "stops the look-ahead (G53, M00)");
   };
-  state_.modal.O = main->number;
+  state_.modal.O = state_.main_program = main->number;
   result_.motion.reserve(std::min(main->blocks.size(), options_.limits.moves));
   Frame frame;
   frame.program = main;
@@ -127,6 +127,7 @@ void Runner::step(Frame& frame, const Block& block) {
     case BlockKind::Call: call_macro(frame, block); break;
     case BlockKind::ModalCall: call_modal(frame, block); break;
     case BlockKind::Print: print(*frame.program, block); break;
+    case BlockKind::Name: name_variables(*frame.program, block); break;
     case BlockKind::Faulty: {
       const Alarm& alarm = frame.program->alarms[static_cast<std::size_t>(block.target)];
       throw AlarmRaised(alarm.number, alarm.message, alarm.column);
@@ -241,9 +242,23 @@ void Runner::print(const Program& program, const Block& block) {
   result_.prints.push_back(readable(line));
 }
 
+// SETVN
+void Runner::name_variables(const Program& program, const Block& block) {
+  for (std::uint32_t i = 0; i < block.words; ++i) {
+    const Word& word = program.words[block.first_word + i];
+    variables_.set_name(block.variable + static_cast<int>(i),
+                        program.names[static_cast<std::size_t>(word.number)], word.column);
+  }
+}
+
 void Runner::nc(Frame& frame, const Block& block) {
   const Program& program = *frame.program;
   read_words(program, block, variables_, words_);
+  const Program* subprogram = nullptr;
+  if (may_call_by_code()) {
+    if (macro_by_code(frame, block)) return;
+    subprogram = subprogram_by_code();
+  }
   const BlockEffect effect =
       executor_.execute(words_, program.number, static_cast<int>(block.line));
   for (int i = 0; i < executor_.ended_modal_calls && !modal_calls_.empty(); ++i) {
@@ -252,10 +267,14 @@ void Runner::nc(Frame& frame, const Block& block) {
   if (modal_calls_.empty()) state_.modal.modal_call = 670;
   switch (effect.flow) {
     case BlockEffect::Flow::End: ended_ = true; break;
-    case BlockEffect::Flow::Call: call_subprogram(); break;
+    case BlockEffect::Flow::Call: call_subprogram(program); break;
     case BlockEffect::Flow::Return: return_from(words_.has('P')); break;
     case BlockEffect::Flow::Next:
-      if (effect.moved && !modal_calls_.empty()) after_move();
+      if (subprogram != nullptr) {
+        call_by_code(*subprogram, block.column);
+      } else if (effect.moved && !modal_calls_.empty()) {
+        after_move();
+      }
       break;
   }
 }

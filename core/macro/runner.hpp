@@ -26,13 +26,23 @@ private:
     std::uint64_t undotted = 0;
     double scale = 1;
   };
+  /// What a block that calls a macro says.
+  struct Call {
+    Arguments arguments;
+    std::int64_t repeats = 1;
+    int number = -1;  ///< P
+    int name = -1;    ///< <NAME>
+    int column = 0;   ///< of either, else of the block
+  };
   enum class FrameKind { Main, Subprogram, Macro, Modal };
   struct Frame {
     FrameKind kind = FrameKind::Main;
     const Program* program = nullptr;
     std::int32_t next = 0;               ///< block
+    std::int32_t first = 0;              ///< where each of its runs begins
     std::int64_t repeats = 1;            ///< runs left, this one included
     std::size_t modal_depth = no_limit;  ///< G66 calls that its moves may trigger
+    bool is_by_code = false;             ///< called by a G, M or T code of CodeCalls
     Arguments arguments;
   };
   struct ModalCall {
@@ -53,23 +63,34 @@ private:
   bool holds(const Frame& frame, const Block& block) const;
   void jump(Frame& frame, std::int32_t from, const Block& block);
   void print(const Program& program, const Block& block);
+  void name_variables(const Program& program, const Block& block);
   void nc(Frame& frame, const Block& block);
   void trace(const Program& program, const Block& block);
   void finish();
 
+  // code_calls.cpp
+  bool may_call_by_code() const;
+  bool macro_by_code(Frame& frame, const Block& block);
+  const Program* subprogram_by_code();
+  void call_by_code(const Program& called, int column);
+
   // calls.cpp
   const Program& find(int number, int column);
+  const Program& find(const std::string& name, int column);
+  const Program& called_by(const Program& program, const Call& call);
   const Program* loaded(int number);
   void load(std::string text);
   void note_commons(const Program& program);
   void call_macro(Frame& frame, const Block& block);
   void call_modal(Frame& frame, const Block& block);
+  void add_modal(const Program& program, const Call& call, int column);
   void after_move();
-  void call_subprogram();
+  void call_subprogram(const Program& program);
+  const Program& numbered_subprogram(std::int64_t& repeats);
   void return_from(bool to_label);
   void restart_main();
-  Arguments read_arguments(const Program& program, const Block& block, std::int64_t& repeats,
-                           int& number, int& number_column);
+  Call read_call(const Program& program, const Block& block);
+  Call read_call(const Program& program, const Block& block, char letter, double low, double high);
   void push(Frame frame, int column);
   int levels(bool macros) const;
 
@@ -84,6 +105,7 @@ private:
   NcWords words_;
   std::deque<Program> programs_;  ///< stays in place while frames point into it
   std::map<int, const Program*> by_number_;
+  std::map<std::string, const Program*, std::less<>> by_name_;
   std::vector<Frame> frames_;
   std::vector<ModalCall> modal_calls_;
   bool ended_ = false;

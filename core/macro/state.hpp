@@ -100,6 +100,7 @@ struct State {
   Rotation rotation;
   Scaling scaling, mirror;
   Eigen::Vector2d polar = Eigen::Vector2d::Zero();  ///< G16: radius and angle [deg] in force
+  int main_program = 0;                             ///< #4000
   int spindle_tool = -1;                            ///< after M06; -1: no tool change yet
   std::map<int, double> plain;  ///< #1100.., #3003, #3004 and others that only store
 };

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <numbers>
 #include <string>
 
 namespace ridgeline::macro {
@@ -26,6 +27,21 @@ std::tm local_time() {
   std::tm time{};
   localtime_r(&now, &time);
   return time;
+}
+
+// Numbers of controls with more than 20 axes, 50 to a kind, as those with 20: #100001 is #5001,
+// #100301 is #5201 and #101001 is #14001.
+int short_number(int number) {
+  constexpr int wide = 50, narrow = 20;
+  const auto at = [number](int first, int count, int other) {
+    const int kind = (number - first) / wide, axis = (number - first) % wide;
+    const bool is_there = number >= first && kind < count && axis < narrow;
+    return is_there ? other + kind * narrow + axis : 0;
+  };
+  for (const int found : {at(100001, 5, 5001), at(100301, 7, 5201), at(101001, 300, 14001)}) {
+    if (found != 0) return found;
+  }
+  return number;
 }
 
 [[noreturn]] void unknown(int number) {
@@ -73,7 +89,12 @@ Value ControlVariables::read(int number) {
     if (number == 3012) return time.tm_hour * 10000.0 + time.tm_min * 100 + time.tm_sec;
     return (time.tm_year + 1900) * 10000.0 + (time.tm_mon + 1) * 100 + time.tm_mday;
   }
+  if (number == 3100) return {};
+  if (number == 3101) return std::numbers::pi;
+  if (number == 3102) return std::numbers::e;
+  if (number == 4000) return static_cast<double>(state_.main_program);
   if (number > 4000 && number < 4600) return modal(number % 200);
+  number = short_number(number);
   if (number > 5000 && number < 5200) return position(number);
   if (const double* value = offset(number)) return *value / unit(state_);
   if (const double* value = work_offset(number)) return *value / unit(state_);
@@ -81,8 +102,10 @@ Value ControlVariables::read(int number) {
 }
 
 void ControlVariables::write(int number, Value value) {
-  if (is_input(number) || number == 3011 || number == 3012 || number == 3007 || number == 3008 ||
-      (number > 4000 && number < 4600) || (number > 5000 && number < 5200)) {
+  number = short_number(number);
+  if ((number >= 3100 && number <= 3102) || number == 4000 || is_input(number) || number == 3011 ||
+      number == 3012 || number == 3007 || number == 3008 || (number > 4000 && number < 4600) ||
+      (number > 5000 && number < 5200)) {
     read(number);  // 115 before 116
     raise(AlarmNumber::WriteProtected, numbered("#", number));
   }
@@ -151,11 +174,12 @@ Value ControlVariables::modal(int number) const {
   unknown(4000 + number);
 }
 
-// #5001 block end, #5021 machine, #5041 present, #5061 skip, #5081 tool offset, #5101 deviation.
+// #5001 block end, #5021 machine, #5041 present, #5061 skip, #5081 tool offset; 0 offline:
+// #5101 servo deviation, #5121 handle interruption, #5181 distance to go.
 Value ControlVariables::position(int number) {
   const int kind = (number - 5001) / 20;
   const int axis = (number - 5001) % 20;
-  if (axis >= axis_count || kind > 5) unknown(number);
+  if (axis >= axis_count || kind == 7 || kind == 8) unknown(number);
   const auto i = static_cast<std::size_t>(axis);
   const double scale = is_rotary(axis) ? 1 : unit(state_);
   if ((kind == 1 || kind == 2) && on_hazard) on_hazard(number);

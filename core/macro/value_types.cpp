@@ -76,6 +76,14 @@ ValueType ValueTypes::of(const Program& program, std::int32_t code,
       case Op::Common:
       case Op::System:
       case Op::Adp: stack.push_back(of_variable(at->index)); break;
+      case Op::NameNumber: stack.push_back(ValueType::Unknown); break;
+      case Op::Parameter:
+        for (int parts = at->index; parts > 0; parts >>= 1) {
+          if ((parts & 1) != 0) take();
+        }
+        stack.back() = ValueType::Unknown;
+        break;
+      case Op::Subscript:
       case Op::Indirect: stack.back() = ValueType::Unknown; break;
       case Op::Add:
       case Op::Subtract:

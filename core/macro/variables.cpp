@@ -1,6 +1,9 @@
 #include "core/macro/variables.hpp"
 
+#include <algorithm>
 #include <string>
+
+#include "core/macro/text.hpp"
 
 namespace ridgeline::macro {
 
@@ -51,6 +54,24 @@ double Variables::point_added(int number) const {
   const Level& level = levels_.back();
   const double value = local(number).number;
   return (level.undotted >> number & 1U) != 0 ? value * level.scale : value;
+}
+
+void Variables::set_name(int number, const std::string& name, int column) {
+  if (!is_common(number)) {
+    raise(AlarmNumber::VariableNumber, numbered("SETVN names commons, not #", number), column);
+  }
+  std::erase_if(names_, [number](const auto& each) { return each.second == number; });
+  const auto [place, is_new] = names_.emplace(name, number);
+  if (!is_new) place->second = std::min(place->second, number);
+}
+
+int Variables::named(const std::string& name, int column) const {
+  const auto found = names_.find(name);
+  if (found == names_.end()) {
+    raise(AlarmNumber::VariableNumber, "no SETVN gave a variable the name " + readable(name),
+          column);
+  }
+  return found->second;
 }
 
 }  // namespace ridgeline::macro

@@ -3,6 +3,8 @@
 #include <array>
 #include <bitset>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -61,6 +63,11 @@ public:
   const Locals& locals() const { return levels_.back().values; }
   double point_added(int number) const;
 
+  /// SETVN: the name of a common variable; the one with the lowest number has it. Raises 115.
+  void set_name(int number, const std::string& name, int column);
+  /// The number of a named variable. Raises 115.
+  int named(const std::string& name, int column) const;
+
   SystemVariables& system() const { return system_; }
   const Profile& profile() const { return profile_; }
 
@@ -76,6 +83,7 @@ private:
   Value* locals_;
   std::array<Value, 1000> common_;
   std::bitset<1000> used_;
+  std::map<std::string, int, std::less<>> names_;
 };
 
 /// Value of the expression that starts at instruction `code`. Raises 110..119.

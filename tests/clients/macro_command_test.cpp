@@ -56,6 +56,19 @@ TEST(MacroCommand, SetGivesVariablesBeforeTheRun) {
   EXPECT_EQ(variables.at("112"), 7);
 }
 
+TEST(MacroCommand, ParametersChooseTheCodesThatCall) {
+  const std::string program =
+      "O1\nG100A5.\nM50\n#102=PRM[1240]/[3]\nM30\nO9010\n#100=#1\nM99\nO9001\n#101=7\nM99\n";
+  const Finished finished = macro({"run", "-", "--parameter", "6050=100", "--parameter", "6071=50",
+                                   "--parameter", "1240=0,0,25"},
+                                  program);
+  ASSERT_EQ(finished.status, 0) << finished.out;
+  EXPECT_EQ(finished.json().at("variables"), (Json{{"100", 5}, {"101", 7}, {"102", 25}}));
+  for (const char* bad : {"6050", "6050=x", "=1", "6050=1,"}) {
+    EXPECT_EQ(macro({"run", "-", "--parameter", bad}, program).status, 1) << bad;
+  }
+}
+
 TEST(MacroCommand, BadVariablesAreUsage) {
   for (const char* set : {"100", "#=5", "#100=five", "=5", "#100=5x"}) {
     const Finished finished = macro({"run", "-", "--set", set}, "M30\n");

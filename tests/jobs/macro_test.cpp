@@ -80,6 +80,20 @@ TEST(MacroJob, SubprogramsProfilesOffsetsAndToolsComeWithTheJob) {
   EXPECT_EQ(result.at("variables").at("111"), 4.5);
 }
 
+TEST(MacroJob, ParametersOfTheControlAndProgramsByName) {
+  json job = {{"job", "macro"},
+              {"program", "O1\nG100A5.\nM98<Sub-1>\n#102=PRM[1240]/[3]+PRM[3401,0]\nM30"},
+              {"programs", {{"9010", "#100=#1\nM99"}, {"sub-1", "#101=7\nM99"}}},
+              {"profile", {{"parameters", {{"6050", 100}, {"1240", {0, 0, 25}}, {"3401#0", 1}}}}}};
+  const json result = answered(job);
+  ASSERT_EQ(result.at("status"), "ok") << result.dump();
+  EXPECT_EQ(result.at("variables"), (json{{"100", 5}, {"101", 7}, {"102", 26}}));
+  job["profile"]["parameters"]["6050"] = 100.5;
+  EXPECT_EQ(answered(job).at("error").at("field"), "/profile/parameters/6050");
+  job["profile"]["parameters"] = {{"x", 1}};
+  EXPECT_EQ(answered(job).at("error").at("code"), "bad_input");
+}
+
 TEST(MacroJob, RefusesWhatItDoesNotKnow) {
   const auto field = [](const json& job) {
     const json result = answered(job);
