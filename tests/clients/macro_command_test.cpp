@@ -65,7 +65,7 @@ TEST(MacroCommand, ParametersChooseTheCodesThatCall) {
   ASSERT_EQ(finished.status, 0) << finished.out;
   EXPECT_EQ(finished.json().at("variables"), (Json{{"100", 5}, {"101", 7}, {"102", 25}}));
   for (const char* bad : {"6050", "6050=x", "=1", "6050=1,"}) {
-    EXPECT_EQ(macro({"run", "-", "--parameter", bad}, program).status, 1) << bad;
+    EXPECT_EQ(macro({"run", "-", "--parameter", bad}, program).status, 2) << bad;
   }
 }
 
