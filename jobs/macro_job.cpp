@@ -225,6 +225,8 @@ MacroJob read_macro_job(Object& job) {
     most.seconds = object.number("seconds", above(0, 86400, "s"), most.seconds);
     most.moves = static_cast<std::size_t>(
         object.number("moves", between(0, 1e8, "moves"), static_cast<double>(most.moves)));
+    most.kept = static_cast<std::size_t>(
+        object.number("kept", between(0, 1e8, "moves"), static_cast<double>(most.kept)));
     object.finish();
   }
   return read;

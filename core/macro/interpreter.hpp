@@ -16,9 +16,10 @@ namespace ridgeline::macro {
 /// What stops a program that does not stop by itself (alarms 9001 to 9003).
 struct Limits {
   std::uint64_t steps = 100'000'000;  ///< blocks executed
-  double seconds = 120;               ///< of computing
+  double seconds = 30;                ///< of computing
   std::size_t moves = 3'000'000;      ///< moves, and events, recorded
   std::size_t trace = 200'000;        ///< trace steps kept
+  std::size_t kept = 10'000;          ///< of moves and events, when one of these limits was reached
 };
 
 struct Options {

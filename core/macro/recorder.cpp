@@ -1,12 +1,15 @@
 #include "core/macro/recorder.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 namespace ridgeline::macro {
 
 namespace {
 
+constexpr std::size_t first_room = 1024;  // moves
 constexpr double full_turn_slack = 1e-9;  // [rad], rounding of a full circle's angle
 
 double length_of(const Segment& segment) {
@@ -42,7 +45,11 @@ void Recorder::move(const Segment& segment) {
   if (result_.motion.size() >= move_limit_) {
     raise(AlarmNumber::MemoryLimit, std::to_string(move_limit_) + " moves");
   }
-  Move& move = result_.motion.emplace_back();
+  std::vector<Move>& motion = result_.motion;
+  if (motion.size() == motion.capacity()) {  // no farther than the limit
+    motion.reserve(std::min(std::max(first_room, 2 * motion.size()), move_limit_));
+  }
+  Move& move = motion.emplace_back();
   move.kind = segment.kind;
   move.machine_fixed = segment.machine_fixed;
   move.program = segment.program;
@@ -76,6 +83,21 @@ void Recorder::event(std::string word, int program, int line) {
 
 void Recorder::axis(char axis, double to) {
   if (!result_.motion.empty()) result_.axes.push_back({result_.motion.size() - 1, axis, to});
+}
+
+void shorten(Result& result, std::size_t count) {
+  const auto cut = [&](auto& list, const char* name) {
+    if (list.size() <= count) return;
+    result.warnings.push_back("of " + std::to_string(list.size()) + " " + name + " the first " +
+                              std::to_string(count) + " are given");
+    list.resize(count);
+    list.shrink_to_fit();
+  };
+  cut(result.motion, "moves");
+  cut(result.events, "functions");
+  cut(result.messages, "messages");
+  cut(result.prints, "lines of DPRNT");
+  std::erase_if(result.axes, [&](const AxisMove& axis) { return axis.move >= count; });
 }
 
 }  // namespace ridgeline::macro

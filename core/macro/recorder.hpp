@@ -30,4 +30,8 @@ private:
   Eigen::Vector3d machine_ = Eigen::Vector3d::Zero();
 };
 
+/// Keeps the first `count` moves and what belongs to them, the first events, messages and prints,
+/// and says so in the warnings: what an endless program did is the same again and again.
+void shorten(Result& result, std::size_t count);
+
 }  // namespace ridgeline::macro

@@ -12,7 +12,7 @@ namespace ridgeline::macro {
 namespace {
 
 constexpr std::uint64_t check_interval = 8192;  // blocks between looks at the clock
-constexpr std::size_t most_text = 50'000'000;   // bytes of messages, prints and trace
+constexpr std::size_t most_text = 50'000'000;   // bytes of messages and prints
 constexpr std::size_t most_trace_text = 200;    // characters of a block in the trace
 
 std::string place(const Program& program, const Block& block) {
@@ -306,6 +306,9 @@ void Runner::finish() {
   Eigen::Vector3d shift = linear(shift_of(state_));
   result_.machine = recorder_.moves() > 0 ? recorder_.machine() : linear(state_.machine);
   result_.position = result_.machine - shift;
+  const bool is_limit =
+      result_.alarm && result_.alarm->number >= static_cast<int>(AlarmNumber::StepLimit);
+  if (is_limit) shorten(result_, options_.limits.kept);
 }
 
 Result run(std::string text, const Options& options, const Progress& progress) {

@@ -317,5 +317,23 @@ TEST(Robustness, JumpsAmongManyLabelsAreQuick) {
   EXPECT_EQ(result.variables.at(100).number, 20001);
 }
 
+// An endless program says how it began; where it was stopped is in the alarm and the position.
+TEST(Robustness, EndlessMotionKeepsItsBeginning) {
+  Options options;
+  options.limits = small_limits();
+  options.limits.kept = 100;
+  const Result result = run("O1\nDO1\n#1=#1+1\nM8\nM9\nG0X#1A#1\nEND1\nM30", options);
+  ASSERT_TRUE(result.alarm);
+  EXPECT_EQ(result.alarm->number, static_cast<int>(AlarmNumber::StepLimit));
+  ASSERT_EQ(result.motion.size(), 100U);
+  EXPECT_EQ(result.motion[99].to.x(), 100);
+  EXPECT_EQ(result.events.size(), 100U);
+  EXPECT_EQ(result.axes.size(), 100U);
+  EXPECT_GT(result.position.x(), 3000);
+  EXPECT_EQ(result.warnings.size(), 2U);
+  options.limits.steps = 300;
+  EXPECT_EQ(run("O1\nDO1\n#1=#1+1\nG0X#1\nEND1\nM30", options).motion.size(), 75U);
+}
+
 }  // namespace
 }  // namespace ridgeline::macro
