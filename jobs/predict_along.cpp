@@ -48,6 +48,7 @@ void read_options_of(Object& job, AlongJob& out) {
   cutting::Engagement engagement;
   engagement.options.alpha = along_alpha;
   engagement.options.max_loops = along_loops;
+  engagement.options.mixing = cutting::Mixing::Secants;
   engagement.time.max_revolutions = along_revolutions;
   if (const std::optional<Value> options = job.optional("options"))
     read_options(*options, engagement);
@@ -55,10 +56,6 @@ void read_options_of(Object& job, AlongJob& out) {
   out.options.time = engagement.time;
   out.options.fall_back = engagement.fall_back;
   out.options.method = read_method(job);
-  if (out.options.method == cutting::Method::TimeDomain)
-    job.refuse("method",
-               "\"iterate\" or \"rigid\" along a path; the time domain serves where the "
-               "iteration does not converge");
   out.options.stability = job.choice("stability", tests, StabilityTest::Floquet);
   out.options.stability_every = job.integer("stability_every", 1, 1'000'000, 0);
   constexpr int part = 128;

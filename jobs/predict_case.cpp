@@ -13,6 +13,7 @@ using cutting::CutterKind;
 using cutting::LagLaw;
 using cutting::Lookup;
 using cutting::Method;
+using cutting::Mixing;
 using cutting::Stability;
 
 constexpr Choices<CutterKind, 2> kinds{
@@ -150,8 +151,13 @@ void read_case(const Value& value, cutting::Engagement& engagement) {
 }
 
 void read_options(const Value& value, cutting::Engagement& engagement) {
+  constexpr Choices<Mixing, 2> mixings{
+      {{"averages", Mixing::Averages}, {"secants", Mixing::Secants}}};
   Object object(value);
   cutting::IterateOptions& o = engagement.options;
+  for (const char* key : {"beta", "stall", "adapt", "weights"})  // these say how averages change
+    if (object.has(key)) o.mixing = Mixing::Averages;
+  o.mixing = object.choice("mixing", mixings, o.mixing);
   o.alpha = object.number("alpha", inside(0, 1, ""), o.alpha);
   o.beta = object.number("beta", between(1, 1e300, ""), o.beta);
   o.stall = object.integer("stall", 1, 1'000'000, o.stall);

@@ -21,7 +21,7 @@ struct Uncertainty {
 /// Whether the state that a station settles to is tested for chatter, and how.
 enum class StabilityTest { None, Floquet, TimeDomain };
 
-/// How a path is predicted.
+/// How a path is predicted. Mixing::Secants with `iterate` serves best: stations are alike.
 struct AlongOptions {
   Method method = Method::Iterate;
   IterateOptions iterate;
@@ -82,8 +82,8 @@ public:
 
 private:
   StationError shifted(const Station& station, double shift);
-  void fall_back(const Cut& cut, Prediction& prediction, StationError& out);
-  double spread(double e);
+  void by_time(const Cut& cut, Prediction& prediction, StationError& out);
+  double spread(const Station& nominal, double shift, double e);
 
   const Course& course_;
   Compliance compliance_;

@@ -22,6 +22,7 @@ IterateOptions iterate_options(const Course& course, const AlongOptions& options
 
 // Forces and deflection in the work frame.
 void summarise(const Prediction& prediction, const Eigen::Matrix3d& axes, StationError& out) {
+  if (prediction.F.empty()) return;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& F : prediction.F) {
@@ -81,17 +82,20 @@ StationError Follower::shifted(const Station& nominal, double shift) {
   const Cut cut = cut_at(course_, station);
   const Eigen::Matrix3d axes = cut_axes(course_, station.direction);
   compliance_.axes = machine_axes(course_, station.direction);
-  Prediction prediction = iteration_.solve(cut, compliance_.axes, start_);
   StationError out;
-  out.loops = prediction.loops;
-  out.converged = prediction.converged;
-  out.low_pass_off = options_.iterate.kappa && !prediction.cutoff && prediction.e;
-  out.e = prediction.e;
-  for (const Eigen::Vector3d& n : station.borders) {
-    out.border.push_back(iteration_.error_towards(axes.transpose() * n));
+  Prediction prediction;
+  if (options_.method != Method::TimeDomain) {
+    const bool is_rigid = options_.method == Method::Rigid;  // its one loop is from no deflection
+    prediction = iteration_.solve(cut, compliance_.axes, is_rigid ? Deflections() : start_);
+    out.loops = prediction.loops;
+    out.converged = prediction.converged;
+    out.low_pass_off = options_.iterate.kappa && !prediction.cutoff && prediction.e;
+    out.e = prediction.e;
+    out.fell_back = !out.converged && options_.fall_back && options_.method == Method::Iterate;
   }
-  if (!out.converged && options_.fall_back && options_.method == Method::Iterate) {
-    fall_back(cut, prediction, out);
+  if (options_.method == Method::TimeDomain || out.fell_back) by_time(cut, prediction, out);
+  for (const Eigen::Vector3d& n : station.borders) {
+    out.border.push_back(out.e ? iteration_.error_towards(axes.transpose() * n) : out.e);
   }
   start_ = out.settles ? prediction.D : Deflections();  // of nothing, where it chatters
   summarise(prediction, axes, out);
@@ -99,34 +103,46 @@ StationError Follower::shifted(const Station& nominal, double shift) {
 }
 
 // The deflection of the time domain is also what the next station begins from.
-void Follower::fall_back(const Cut& cut, Prediction& prediction, StationError& out) {
-  const std::size_t samples = prediction.D.size();
-  out.fell_back = true;
+void Follower::by_time(const Cut& cut, Prediction& prediction, StationError& out) {
   try {
     TimeOptions time = options_.time;
     time.largest = std::min(time.largest, chattering);
     TimeDomain run = time_domain(cut, compliance_, S_, time);
+    iteration_.adopt(cut, run.D);
     out.e = run.e;
     out.stability = stability_of(run);
+    if (!out.fell_back) {
+      out.loops = run.revolutions;
+      out.converged = run.converged;
+    }
     prediction.F = std::move(run.F);
-    run.D.resize(samples);
+    if (!prediction.D.empty()) run.D.resize(prediction.D.size());
     prediction.D = std::move(run.D);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::NotConverged) throw;
-    out.settles = false;
+    out.settles = out.converged = false;
     out.stability = Stability::Unstable;
   }
 }
 
 StationError Follower::at(const Station& station) {
   StationError out = shifted(station, 0);
-  if (options_.uncertainty && out.e) out.spread = spread(*out.e);
+  if (options_.uncertainty && out.e) out.spread = spread(station, 0, *out.e);
   return out;
 }
 
-// Central differences by a tenth, from the deflection that the station has.
-double Follower::spread(double e) {
+// Central differences by a tenth, from the deflection that the station has: the time domain's is
+// one that the iteration begins from.
+double Follower::spread(const Station& nominal, double shift, double e) {
   constexpr double step = 0.1;
+  if (options_.method == Method::TimeDomain) {
+    Station station = nominal;
+    station.centre -= shift * station.n;
+    Deflections D = start_;
+    if (iterate_options(course_, options_).span == Span::Pitch)
+      D.resize(D.size() / static_cast<std::size_t>(teeth(course_.cutter)));
+    iteration_.solve(cut_at(course_, station), compliance_.axes, D);
+  }
   const auto& [cutting, edge, stiffness] = *options_.uncertainty;
   const auto error = [&](double cut_scale, double edge_scale) {
     return iteration_.scaled(cut_scale, edge_scale).e.value_or(e);
@@ -162,7 +178,7 @@ StationError Follower::corrected_at(const Station& station, const CorrectOptions
     if (!now.e) refuse(station, radius, original, left, s, limit);
     left = left_of(station, now, s, limits.by_borders);
   }
-  if (options_.uncertainty) now.spread = spread(*now.e);
+  if (options_.uncertainty) now.spread = spread(station, s, *now.e);
   now.before = before;
   now.shift = s;
   *now.e -= s;

@@ -107,10 +107,21 @@ Prediction Iteration::solve(const Cut& cut, const Eigen::Matrix2d& axes, const D
     response_.emplace(compliance_, samples_, S_ * z);
   }
   response_->turn(axes);
+  constexpr double turned = 0.5;  // 20 degrees: the differences are of another cut
+  if ((axes - axes_).norm() > turned) secants_.clear();
+  axes_ = axes;
   cut_scale_ = edge_scale_ = 1;
   Deflections D1 = resampled(start, samples_);
   make_room(cut, greatest_deflection(cut, D1));
   return loops(std::move(D1), progress);
+}
+
+void Iteration::adopt(const Cut& cut, Deflections D) {
+  cut_scale_ = edge_scale_ = 1;
+  make_room(cut, greatest_deflection(cut, D));
+  span_ = Span::Revolution;
+  revolution_ = revolution_force(table_, D, span_);
+  D_ = std::move(D);
 }
 
 Prediction Iteration::scaled(double cut_scale, double edge_scale) {
@@ -121,12 +132,14 @@ Prediction Iteration::scaled(double cut_scale, double edge_scale) {
 }
 
 std::optional<double> Iteration::error_towards(const Eigen::Vector3d& n) const {
-  return machining_error(table_, revolution_, D_, options_.span, n);
+  return machining_error(table_, revolution_, D_, span_, n);
 }
 
 Prediction Iteration::loops(Deflections D1, const Progress& progress) {
   const int z = options_.span == Span::Pitch ? teeth(table_.cut.cutter) : 1;
   const int N = table_.cut.samples;
+  span_ = options_.span;
+  secants_.begin_cut();
   Weights weights(options_);
   Prediction out;
   double cutoff = std::numeric_limits<double>::infinity();
@@ -145,10 +158,14 @@ Prediction Iteration::loops(Deflections D1, const Progress& progress) {
     const double lambda = options_.alpha * squared_sum(D_) * z;  // (2)
     out.converged = out.A.back() < lambda || out.A.back() == 0;
     if (out.converged || out.loops >= options_.max_loops) break;
-    if (weights.changed_by(out.A.back())) {
-      out.weight_changes.push_back({out.loops, weights.w1()});
+    if (options_.mixing == Mixing::Secants) {
+      D1 = secants_.next(D1, D_);
+    } else {
+      if (weights.changed_by(out.A.back())) {
+        out.weight_changes.push_back({out.loops, weights.w1()});
+      }
+      average(D1, D_, weights.w1());
     }
-    average(D1, D_, weights.w1());
     if (const double used = greatest_deflection(table_.cut, D1); used > table_.reach) {
       if (used > options_.largest) break;
       make_room(Cut(table_.cut), used);

@@ -6,6 +6,7 @@
 
 #include "core/base/progress.hpp"
 #include "core/cutting/force.hpp"
+#include "core/cutting/secants.hpp"
 
 namespace ridgeline::cutting {
 
@@ -13,9 +14,14 @@ namespace ridgeline::cutting {
 /// without.
 enum class LowPassGuard { Refuse, Off };
 
+/// Where the next loop begins: the weighted averages of the document (3)..(5), or with what the
+/// loops before told, also of the cuts before on a path (Secants). Both end at the same deflection.
+enum class Mixing { Averages, Secants };
+
 /// How the iteration runs. The names of the document where it has them.
 struct IterateOptions {
-  double alpha = 0.01;                       ///< converged when A < alpha sum |D4|^2 (2)
+  double alpha = 0.01;  ///< converged when A < alpha sum |D4|^2 (2)
+  Mixing mixing = Mixing::Averages;
   double beta = 3;                           ///< diverges when A > beta min(earlier A)
   int stall = 10;                            ///< or when so many loops before gave no new minimum
   std::vector<double> weights{1, 3, 6, 10};  ///< w1 at the start and after each divergence
@@ -73,6 +79,10 @@ public:
   /// Error of the last cut solved against another surface: n points from its contact to O'.
   std::optional<double> error_towards(const Eigen::Vector3d& n) const;
 
+  /// The cut with a deflection of one revolution that another method found: what error_towards()
+  /// and solve() go on from.
+  void adopt(const Cut& cut, Deflections D);
+
   /// The last cut again with its forces scaled, from its own deflection: K_c and K_e times these.
   Prediction scaled(double cut_scale, double edge_scale);
 
@@ -88,6 +98,9 @@ private:
   ChipTable table_;
   Revolution revolution_;
   Deflections D_;
+  Span span_ = Span::Revolution;  // of D_
+  Secants secants_;
+  Eigen::Matrix2d axes_ = Eigen::Matrix2d::Identity();
   double cut_scale_ = 1, edge_scale_ = 1;
 };
 

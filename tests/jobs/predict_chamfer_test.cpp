@@ -60,6 +60,23 @@ TEST(PredictChamfer, RigidToolKeepsTheWidth) {
     EXPECT_NEAR(width.get<double>(), std::sqrt(2.0) * 0.2, 0.002);
 }
 
+// The time domain knows nothing of the iteration but the chips.
+TEST(PredictChamfer, TheTimeDomainAgreesWithTheIterationAlongTheEdge) {
+  Json job = chamfer_job();
+  job["along"]["points"] = 4;
+  const Json iterated = run(job);
+  job["method"] = "time_domain";
+  const Json stepped = run(job);
+  ASSERT_EQ(stepped["status"], "ok") << stepped.dump(1);
+  EXPECT_EQ(stepped["method"], "time_domain");
+  EXPECT_EQ(stepped["report"]["stability_tested"], 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(stepped["error"][i].get<double>(), iterated["error"][i].get<double>(), 5e-4);
+    EXPECT_NEAR(stepped["width"][i].get<double>(), iterated["width"][i].get<double>(), 1e-3);
+    EXPECT_GT(stepped["loops"][i].get<int>(), 2);
+  }
+}
+
 TEST(PredictChamfer, CorrectionLeavesLittleAndMovesTheProgram) {
   Json job = chamfer_job();
   const Json before = run(job);

@@ -93,6 +93,7 @@ void iteration_against_rigid(benchmark::State& state) {
   rigid.method = Method::Rigid;
   if (state.range(2) > 0) warm.iterate.kappa = static_cast<double>(state.range(2));
   warm.part = rigid.part = count;
+  warm.iterate.mixing = state.range(3) > 0 ? Mixing::Secants : Mixing::Averages;
   double iteration_time = 0, rigid_time = 0;
   std::vector<StationError> rows;
   for (auto _ : state) {
@@ -109,10 +110,12 @@ void iteration_against_rigid(benchmark::State& state) {
   state.counters["fell_back"] = fell_back;
 }
 BENCHMARK(iteration_against_rigid)
-    ->ArgNames({"rpm", "stations", "kappa"})
-    ->Args({8000, 2000, 0})
-    ->Args({8000, 2000, 2})
-    ->Args({3000, 2000, 0})
+    ->ArgNames({"rpm", "stations", "kappa", "secants"})
+    ->Args({8000, 2000, 0, 1})
+    ->Args({8000, 2000, 2, 1})
+    ->Args({3000, 2000, 0, 1})
+    ->Args({3000, 2000, 0, 0})
+    ->Args({1500, 2000, 0, 1})
     ->Iterations(3)
     ->Unit(benchmark::kMillisecond);
 
@@ -219,6 +222,7 @@ void long_path(benchmark::State& state) {
   AlongOptions options;
   options.threads = 2;
   options.iterate.kappa = 2;
+  options.iterate.mixing = Mixing::Secants;
   std::vector<StationError> rows;
   double processor = 0;
   for (auto _ : state) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "core/cutting/floquet.hpp"
 #include "tests/core/cutting/oracle_case.hpp"
 
@@ -65,6 +67,84 @@ TEST(Along, TurnsAndMovesWithTheWork) {
       along(example.course, {example.station, moved}, example.compliance, example.S, options);
   EXPECT_NEAR(*path[0].e, *path[1].e, 1e-9);
   EXPECT_LT((turned(path[0].peak_force) - path[1].peak_force).norm(), 1e-5);
+}
+
+// Stations of a slope whose tilt changes slowly, in up-milling, which converges slowly.
+std::vector<Station> slope(const Example& example, int count) {
+  std::vector<Station> out;
+  for (int i = 0; i < count; ++i) {
+    const double tilt = (14 + 0.25 * i) * std::numbers::pi / 180;
+    Station station = example.station;
+    station.feed = 0.2;
+    station.direction = {0, -1, 0};
+    station.n = {-std::sin(tilt), 0, std::cos(tilt)};
+    station.stock.faces = {HalfSpace{station.n, 0.23 - example.course.cutter.r}};
+    const Eigen::Vector3d down(-std::cos(tilt), 0, -std::sin(tilt));
+    station.stock.grooves = {{0.49 * down, station.direction, example.course.cutter.r}};
+    out.push_back(station);
+  }
+  return out;
+}
+
+// Both leave a residual below alpha (10 % rms), so their errors differ by less than that of either.
+TEST(Along, SecantsEndWhereAveragesDoInAThirdOfTheLoops) {
+  Example example;
+  example.course.samples = 512;
+  example.course.cutter.elements = 64;
+  const Modes mode{{1100, 0.03, 2000}};
+  example.compliance = {mode, mode, Eigen::Matrix2d::Identity()};
+  const std::vector<Station> stations = slope(example, 24);
+  AlongOptions averages, secants;
+  averages.iterate.max_loops = 100;
+  secants.iterate.mixing = Mixing::Secants;
+  constexpr double S = 3000 / 60.0;
+  const auto slow = along(example.course, stations, example.compliance, S, averages);
+  const auto fast = along(example.course, stations, example.compliance, S, secants);
+  int slow_loops = 0, fast_loops = 0, compared = 0;
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    slow_loops += slow[i].loops;
+    fast_loops += fast[i].loops;
+    EXPECT_TRUE(fast[i].converged) << i;
+    if (!slow[i].converged) continue;
+    EXPECT_NEAR(*fast[i].e, *slow[i].e, 1e-3) << i;
+    ++compared;
+  }
+  EXPECT_GE(compared, 12);
+  EXPECT_LT(3 * fast_loops, slow_loops);
+}
+
+TEST(Along, TheRigidMethodHasNoMemory) {
+  const Example example;
+  AlongOptions options;
+  options.method = Method::Rigid;
+  const auto path = along(example.course, {example.station, example.station}, example.compliance,
+                          example.S, options);
+  const Prediction alone = rigid(example.cut, example.compliance, example.S, Span::Pitch);
+  for (const StationError& station : path) EXPECT_NEAR(*station.e, *alone.e, 1e-12);
+}
+
+TEST(Along, TheTimeDomainAlongAPathIsTheTimeDomainOfEachStation) {
+  const Example example;
+  AlongOptions options;
+  options.method = Method::TimeDomain;
+  options.uncertainty = Uncertainty{0.1, 0.2, 0.1};
+  options.iterate.alpha = 1e-8;
+  Station station = example.station;
+  station.borders = {station.n};
+  const auto path =
+      along(example.course, {station, station}, example.compliance, example.S, options);
+  const TimeDomain alone = time_domain(example.cut, example.compliance, example.S, options.time);
+  ASSERT_EQ(path.size(), 2U);
+  EXPECT_EQ(*path[1].e, *alone.e);
+  EXPECT_EQ(path[1].loops, alone.revolutions);
+  EXPECT_TRUE(path[1].converged);
+  EXPECT_FALSE(path[1].fell_back);
+  EXPECT_EQ(path[1].stability, Stability::Stable);
+  EXPECT_NEAR(*path[1].border[0], *path[1].e, 1e-5);  // the same surface by the chips of one turn
+  AlongOptions iterated = options;
+  iterated.method = Method::Iterate;
+  const auto same = along(example.course, {station}, example.compliance, example.S, iterated);
+  EXPECT_NEAR(path[1].spread, same[0].spread, 0.02 * same[0].spread);
 }
 
 // Design page: residual at most 5 % of the original error or 0.5 um.

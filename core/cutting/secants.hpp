@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+
+#include "core/cutting/response.hpp"
+
+namespace ridgeline::cutting {
+
+/// What the last loops told of the map D1 -> D4 around its fixed point: differences of D1 and of
+/// the residual R = D4 - D1 from loop to loop. The next D1 takes away the part of R that they
+/// explain (Anderson's acceleration; D. G. Anderson, J. ACM 12, 1965). The differences of the cuts
+/// before serve too: along a path the map changes little.
+class Secants {
+public:
+  /// The next D1 after a loop from D1 to D4.
+  Deflections next(const Deflections& D1, const Deflections& D4);
+
+  /// The next loop is of another cut: no difference between it and the last one.
+  void begin_cut() { has_last_ = false; }
+
+  /// What was learnt holds no longer: the tool stands another way to the work.
+  void clear();
+
+private:
+  struct Pair {
+    Eigen::VectorXd D, R;
+  };
+  Eigen::VectorXd shares(const Eigen::VectorXd& R) const;
+
+  std::deque<Pair> differences_;
+  Pair last_;
+  bool has_last_ = false;
+};
+
+}  // namespace ridgeline::cutting
