@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <queue>
 
 #include "core/verify/extreme.hpp"
 
@@ -23,6 +24,8 @@ constexpr double on_surface = 1e-7;  ///< [mm]
 constexpr double seam_doubt = 1e-3;  ///< a seam this near to being cut is measured exactly [mm]
 constexpr double peak_worth = 1e-9;  ///< [mm]
 constexpr double golden_settled = 1e-9;
+constexpr double hidden = 1e-5;         ///< deeper than what is found is nothing by more [mm]
+constexpr int most_halvings = 500'000;  ///< then the bound itself is the depth
 
 /// The ridge as a closed polyline, to find the u of a point.
 Trace ridge_trace(const Edge& edge, const std::vector<BandSection>& sections) {
@@ -56,9 +59,21 @@ public:
 private:
   struct Step {
     std::size_t piece;
-    double from, to;  ///< t
+    double from, to;        ///< t
+    bool is_clear = false;  ///< no boundary within D all the way
+  };
+  /// A stretch of a step with the depths at both ends and what none between them exceeds.
+  struct Stretch {
+    std::size_t step;
+    double low, high;  ///< share of the step
+    double low_depth, high_depth;
+    double bound;
+    friend bool operator<(const Stretch& a, const Stretch& b) { return a.bound < b.bound; }
   };
   void walk();
+  Stretch stretch(std::size_t step, double low, double high, double low_depth,
+                  double high_depth) const;
+  Extreme certified(Extreme best) const;
   Eigen::Vector3d centre(double index) const;
   double depth(const Eigen::Vector3d& c) const;
   double seam_depth(const Eigen::Vector3d& c) const;
@@ -164,17 +179,61 @@ void Search::walk() {
     while (t < 1) {
       const double clear = geometry::distance(solid_.material(), at(piece, t)) - D_;
       const double next = std::min(1.0, t + std::max(margin_, clear - margin_) / speed);
-      steps_.push_back({i, t, next});
+      steps_.push_back({i, t, next, clear - margin_ > 0 && clear >= (next - t) * speed});
       depths_.push_back(depth(at(piece, next)));
       t = next;
     }
   }
 }
 
+// Let d(c) be the distance of c to the boundary outside the band: a fixed set of points q. For each
+// of them and c = (1 - s) a + s b, with l = |b - a|,
+//   |c - q|^2 = (1 - s) |a - q|^2 + s |b - q|^2 - s (1 - s) l^2,
+// so that d(c)^2 >= min(d(a), d(b))^2 - l^2 / 4. A depth below 0 counts as 0, as the border of the
+// band, which no foot tells of, is D or more away from every centre.
+Search::Stretch Search::stretch(std::size_t step, double low, double high, double low_depth,
+                                double high_depth) const {
+  const double at_step = static_cast<double>(step) - 1;
+  const double l = (centre(at_step + high) - centre(at_step + low)).norm();
+  const Step& here = steps_[step];
+  const double turn = (here.to - here.from) * (high - low);
+  const double sag = path_.pieces()[here.piece].bend * turn * turn / 8;
+  const double least = std::max(0.0, D_ - std::max({0.0, low_depth, high_depth}));
+  const double d = std::sqrt(std::max(0.0, least * least - l * l / 4));
+  const Eigen::Vector3d middle = centre(at_step + (low + high) / 2);
+  const double in_air =
+      geometry::distance(solid_.material(), middle) - l / 2;  // the distance to all
+  return {step, low, high, low_depth, high_depth, D_ - std::max(d, in_air) + sag};
+}
+
+// Halves the stretch with the greatest bound until none can hide more than `hidden`.
+Extreme Search::certified(Extreme best) const {
+  std::priority_queue<Stretch> open;
+  for (std::size_t i = 1; i < steps_.size(); ++i) {
+    if (steps_[i].is_clear) continue;
+    open.push(stretch(i, 0, 1, depths_[i - 1], depths_[i]));
+  }
+  for (int n = 0; !open.empty(); ++n) {
+    const Stretch top = open.top();
+    const double found = std::max(0.0, best.value);
+    if (top.bound <= found + hidden) break;
+    if (n == most_halvings) return {top.bound, static_cast<double>(top.step) - 1 + top.high};
+    open.pop();
+    const double middle = (top.low + top.high) / 2;
+    const double at = static_cast<double>(top.step) - 1 + middle;
+    const double here = depth(centre(at));
+    if (here > best.value) best = {here, at};
+    open.push(stretch(top.step, top.low, middle, top.low_depth, here));
+    open.push(stretch(top.step, middle, top.high, here, top.high_depth));
+  }
+  return best;
+}
+
 Overcut Search::run() {
   walk();
-  const Extreme deepest = sampled_maximum(
+  const Extreme peak = sampled_maximum(
       depths_, [this](double index) { return depth(centre(index)); }, Ends::Open, peak_worth);
+  const Extreme deepest = certified(peak);
   if (!(deepest.value > 0)) return {};
   return {.depth = deepest.value,
           .piece = steps_[static_cast<std::size_t>(std::ceil(deepest.at))].piece,

@@ -23,8 +23,8 @@ struct Overcut {
 /// the path itself cuts there (Band). So a clean chamfer of any width has none: its width is
 /// measured elsewhere. Where the ball centre is inside the material and not in the tip that the
 /// band takes off: D + its depth there. Found by following the path in steps of D / 25 and refining
-/// every peak; what two steps hide is below (D / 25)^2 / (8 r) for a boundary of curvature radius
-/// r.
+/// every peak; then bounded between the places looked at, halving until nothing deeper by more than
+/// 1e-5 mm is left (what arcs that stand for seams miss, geometry::seam_sag, may add as much).
 Overcut overcut(const geometry::Edge& edge, const geometry::Solid& solid,
                 const geometry::Trace& path, const Band& band,
                 const std::vector<BandSection>& sections, double D);

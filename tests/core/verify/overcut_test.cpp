@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
+#include <string>
+#include <vector>
 
 #include "tests/core/verify/countersink.hpp"
 
@@ -77,6 +81,82 @@ TEST(Overcut, ABallTooWideForTheHoleCutsBelowTheBand) {
   const Report report = measure(subject, polygon(c, 300));
   EXPECT_GT(report.width_max, 1.5 * subject.width);
   EXPECT_NEAR(report.overcut, 4.5 + 2 - 5, 1e-3);  // at z = 8 the ball is widest
+}
+
+/// A row of round holes along Y through the top of the block, thin ribs between them.
+struct Row {
+  std::vector<geometry::Hole> holes;
+
+  /// To the material from above its top, inside of which no point of the test is.
+  double distance(const Eigen::Vector3d& c) const {
+    for (const geometry::Hole& hole : holes) {
+      const double inside = hole.profile.R2 - (c - hole.position).head<2>().norm();
+      if (inside > 0) return std::hypot(inside, c.z() - 10);
+    }
+    return c.z() - 10;
+  }
+};
+
+Row row(std::mt19937& random) {
+  const auto any = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  Row row;
+  double y = -30;
+  for (int i = 0; y < 25; ++i) {
+    geometry::Hole hole;
+    hole.name = "R" + std::to_string(i);
+    hole.profile.R2 = any(1.5, 3);
+    hole.position = {any(19, 21), y + hole.profile.R2, 0};
+    if (i > 0) {  // the rib as thin as it is where the circles are nearest
+      const double across = hole.position.x() - row.holes.back().position.x();
+      const double apart =
+          row.holes.back().profile.R2 + hole.profile.R2 + std::pow(10, any(-3, -0.7));
+      hole.position.y() =
+          row.holes.back().position.y() + std::sqrt(apart * apart - across * across);
+    }
+    y = hole.position.y() + hole.profile.R2;
+    row.holes.push_back(hole);
+  }
+  return row;
+}
+
+// Straight ways across the row, at random heights and tilts: what is cut between two holes is a rib
+// much thinner than any step along the way. Brute force on the closed form of the distance.
+TEST(Overcut, ThinRibsAreNotMissed) {
+  std::mt19937 random(20);
+  const auto any = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  const Countersink c;
+  int cut = 0;
+  for (int n = 0; n < 30; ++n) {
+    SCOPED_TRACE(n);
+    const Row ribs = row(random);
+    Subject subject = subject_of(c);
+    for (const geometry::Hole& hole : ribs.holes) subject.workpiece.holes.push_back(hole);
+    path::Motion motion = polygon(c, 200);
+    const double low = any(11.5, 13.1);
+    const Eigen::Vector3d from(any(19, 21), -30, low), to(any(19, 21), 28, low + any(0, 0.2));
+    for (const Eigen::Vector3d& above : {motion.start, from}) {
+      add_line(motion, MoveKind::Retract, {above.x(), above.y(), 40});
+    }
+    add_line(motion, MoveKind::Retract, from);
+    add_line(motion, MoveKind::Retract, to);
+    add_line(motion, MoveKind::Retract, {to.x(), to.y(), 40});
+
+    double least = 1e9;
+    constexpr int samples = 100'000;
+    for (int i = 0; i <= samples; ++i) {
+      least = std::min(least, ribs.distance(from + (to - from) * i / samples));
+    }
+    const double expected = std::max(0.0, c.D - least);
+    const double found = measure(subject, motion).overcut;
+    EXPECT_NEAR(found, expected, 2.5e-5);  // of the proof and of the arcs for seams
+    cut += expected > 0 ? 1 : 0;
+  }
+  EXPECT_GT(cut, 15);
+  EXPECT_LT(cut, 30);
 }
 
 }  // namespace
