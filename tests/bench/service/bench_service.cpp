@@ -6,68 +6,30 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstdlib>
 #include <iostream>
-#include <thread>
 
 #include "clients/client.hpp"
 #include "jobs/answer.hpp"
 #include "jobs/memory.hpp"
 #include "service/library.hpp"
 #include "tests/bench/service/bare.hpp"
+#include "tests/bench/service/load.hpp"
 #include "tests/loopback/network.hpp"
 
 namespace {
 
 using namespace ridgeline;
-using Clock = std::chrono::steady_clock;
+using namespace ridgeline::bench;
 
 constexpr char small_job[] = R"({"job": "chamfer", "workpiece": "tube-40", "hole": "H1",
   "edge": "inner", "tool": 12, "width": 0.5, "points": 8, "method": "section"})";
 constexpr double allowed_ratio = 1.5;
 
-struct Quantiles {
-  double p50 = 0, p99 = 0;
-};
-
-Quantiles quantiles(std::vector<double> seconds) {
-  std::sort(seconds.begin(), seconds.end());
-  return {seconds[seconds.size() / 2], seconds[seconds.size() * 99 / 100]};
-}
-
-template <class F>
-double seconds(F&& f) {
-  const auto begin = Clock::now();
-  f();
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
 void must_be_ok(const jobs::Answer& answer) {
   if (!jobs::is_error(answer)) return;
   std::cerr << answer.document << '\n';
   std::exit(2);
-}
-
-/// Latency of each ask with `in_flight` threads, and all asks a second.
-struct Load {
-  Quantiles latency;
-  double rate = 0;
-};
-template <class F>
-Load load(int in_flight, int count, F&& ask) {
-  std::vector<std::vector<double>> times(static_cast<std::size_t>(in_flight));
-  std::atomic<int> left = count;
-  const double all = seconds([&] {
-    std::vector<std::jthread> threads;
-    for (auto& mine : times)
-      threads.emplace_back([&] {
-        while (left-- > 0) mine.push_back(seconds(ask));
-      });
-  });
-  std::vector<double> together;
-  for (const auto& mine : times) together.insert(together.end(), mine.begin(), mine.end());
-  return {quantiles(together), count / all};
 }
 
 void print(const std::string& what, const Load& load) {
