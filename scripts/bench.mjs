@@ -1,7 +1,8 @@
 // node bench.mjs BUILD OUT: runs every benchmark of BUILD and writes OUT, ratios first. Called by scripts/bench.
 import {execFileSync, spawn, spawnSync} from 'node:child_process';
-import {readFileSync, writeFileSync} from 'node:fs';
-import {cpus, totalmem} from 'node:os';
+import {mkdtempSync, readFileSync, writeFileSync} from 'node:fs';
+import {cpus, tmpdir, totalmem} from 'node:os';
+import {join} from 'node:path';
 
 const [build, out] = process.argv.slice(2);
 const bench = (name) => `${build}/tests/bench/${name}`;
@@ -71,6 +72,19 @@ section('Hole edge beside Open CASCADE', bench('peers/hole_edge_peer'), show(pee
 googleBenchmark('Chamfer points', 'chamfer/chamfer_bench', {
   section_per_unit: 'section point / (sine, cosine, two roots); limit 10', swept_per_section: 'swept point / section point; limit 12',
   points_per_optimum: 'points / optimum; limit 1.03'});
+
+const freecad = spawnSync('which', ['freecadcmd'], {encoding: 'utf8'}).stdout.trim();
+if (freecad) {
+  const peer = 'tests/bench/peers/freecad_peer.py';
+  const file = join(mkdtempSync(join(tmpdir(), 'ridgeline-bench-')), 'out.md');
+  process.env.RIDGELINE_PEER_OUT = file;
+  run(freecad, [peer]);
+  section('FreeCAD on the same work', `RIDGELINE_PEER_OUT=out.md freecadcmd ${peer}`, show(readFileSync(file, 'utf8')),
+    'Bore 40, hole 10 square through both walls. The edges are not plane: its Deburr makes no path of them, and of the hole\'s face straight\n' +
+    'moves at one height. It plans no turning; what it shares with `units plan` is reading STEP files.');
+} else {
+  told.push('## FreeCAD on the same work\n\nNot measured: there is no `freecadcmd` on this machine (`apt-get install freecad-python3`).\n');
+}
 
 // ---- macro programs
 const macro = googleBenchmark("Macro programs beside LinuxCNC's rs274", 'macro/macro_bench', {});
