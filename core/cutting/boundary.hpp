@@ -37,4 +37,16 @@ inline bool is_near(const Boundary& boundary, const Eigen::Vector3d& P, double r
   return slack <= 0 || slack * slack <= (term.gx * term.gx + term.gy * term.gy) * (reach * reach);
 }
 
+/// Is a point of this term inside for every U within `reach` of `centre`?
+inline bool is_far_inside(const Boundary& boundary, const Term& term, const Eigen::Vector2d& centre,
+                          double reach) {
+  const Eigen::Vector2d a(boundary.a.x(), boundary.a.y());
+  const double along = a.dot(centre);
+  const double g = term.g0 + term.gx * centre.x() + term.gy * centre.y() +
+                   boundary.sign * (centre.squaredNorm() - along * along);
+  const Eigen::Vector2d slope =
+      Eigen::Vector2d(term.gx, term.gy) + 2 * boundary.sign * (centre - along * a);
+  return g + slope.norm() * reach + (boundary.sign > 0 ? reach * reach : 0) < 0;
+}
+
 }  // namespace ridgeline::cutting

@@ -14,7 +14,9 @@ using std::numbers::pi;
 // What the whole table shares.
 struct Scene {
   const Cut& cut;
-  double reach = 0;
+  const Around& around;
+  double largest = 0;       // deflection that may be [mm]
+  std::vector<double> way;  // of the centre, from sample to sample, added up [mm]
   Eigen::Vector3d fd;
   double cos_phi = 1;
   std::vector<Element> elements;
@@ -44,15 +46,30 @@ struct Aim {
   Eigen::Vector3d N;
 };
 
-Scene scene(const Cut& cut, double reach) {
+// A centre that goes round: how far it has gone by each sample of its period and to the end of it.
+std::vector<double> way_of(const Deflections& centre) {
+  std::vector<double> way;
+  if (centre.empty()) return way;
+  way.push_back(0);
+  for (std::size_t i = 0; i < centre.size(); ++i)
+    way.push_back(way.back() + (centre[i + 1 < centre.size() ? i + 1 : 0] - centre[i]).norm());
+  return way;
+}
+
+Scene scene(const Cut& cut, const Around& around) {
   Scene scene{.cut = cut,
-              .reach = reach,
+              .around = around,
+              .largest = around.reach,
+              .way = way_of(around.centre),
               .fd = feed_direction(cut),
               .cos_phi = std::cos(cut.phi),
               .elements = elements(cut.cutter),
               .sin_theta = {},
               .cos_theta = {},
               .boundaries = boundaries(cut.stock)};
+  double furthest = 0;
+  for (const Eigen::Vector2d& U : around.centre) furthest = std::max(furthest, U.squaredNorm());
+  scene.largest += std::sqrt(furthest);
   for (int i = 0; i < cut.samples; ++i) {
     const double theta = 2 * pi * i / cut.samples;
     scene.sin_theta.push_back(std::sin(theta));
@@ -137,23 +154,51 @@ Earlier earlier_at(const Scene& scene, const Edge& edge, const Aim& aim, std::in
   return earlier;
 }
 
-// Feed side: ts + 2 reach sin q > 0 is (r + w + f b)^2 > f^2 (b^2 - 1) + r_o^2, w = 2 reach sin q,
-// which is linear in b.
-double least_b(const Edge& edge, const Before& before, double reach) {
-  const double rim = edge.r + 2 * reach * edge.element->sin_q;
+// Feed side: ts + w > 0 with w = sin q times how far the edge may have moved since theta_o is
+// (r + w + f b)^2 > f^2 (b^2 - 1) + r_o^2, which is linear in b.
+double least_b(const Edge& edge, const Before& before, double moved) {
+  const double rim = edge.r + moved * edge.element->sin_q;
   return (before.r * before.r - before.f * before.f - rim * rim) / (2 * before.f * rim);
 }
 
+// A tooth period, give or take this many samples, lies between theta_o and theta: twice what (11)
+// and the lag at q_o (12) can add, since q_o is within 2 f / r of q.
+int slip(const Scene& scene, const Edge& edge, const Before& before) {
+  const double f = before.f;
+  const double along = (edge.r - 2 * f) * edge.element->sin_q - f;
+  const double turn = f / std::max(along, 1e-9 * edge.r);  // atan2 of (11) is less
+  const double tan_beta = std::abs(std::tan(scene.cut.cutter.helix));
+  const double cos_q = std::max(edge.element->cos_q - 2 * f / edge.r, -1 + 1e-9);
+  const double lag = scene.cut.cutter.kind == CutterKind::Square
+                         ? 0
+                         : 2 * f / edge.r * tan_beta * std::max(1.0, 1 / (1 + cos_q));
+  const double samples = 2 * (turn + lag) * scene.cut.samples / (2 * pi) + 2;
+  return static_cast<int>(std::min(samples, static_cast<double>(scene.cut.samples)));
+}
+
+// How far the centre may have moved within so many samples of one: no further than it went.
+double moved_within(const Scene& scene, int sample, int slip) {
+  const auto period = static_cast<int>(scene.around.centre.size());
+  if (slip >= period) return 2 * scene.largest;
+  const auto way = [&](int i) {
+    const int turns = i < 0 ? -1 : i / period;
+    return turns * scene.way.back() + scene.way[static_cast<std::size_t>(i - turns * period)];
+  };
+  const int at = sample % period;
+  return std::max(way(at + slip) - way(at), way(at) - way(at - slip));
+}
+
 bool is_in_stock(const Scene& scene, const Eigen::Vector3d& P) {
+  const double reach = scene.around.reach;
   const Stock& stock = scene.cut.stock;
   const std::size_t faces = stock.faces.size();
   for (std::size_t i = faces; i < scene.boundaries.size(); ++i) {
-    if (!is_near(scene.boundaries[i], P, scene.reach)) return false;
+    if (!is_near(scene.boundaries[i], P, reach)) return false;
   }
   const bool all = stock.combine == Combine::All;
   bool inside = all || faces == 0;
   for (std::size_t i = 0; i < faces; ++i) {
-    const bool near = is_near(scene.boundaries[i], P, scene.reach);
+    const bool near = is_near(scene.boundaries[i], P, reach);
     if (all && !near) return false;
     inside = inside || near;
   }
@@ -161,7 +206,7 @@ bool is_in_stock(const Scene& scene, const Eigen::Vector3d& P) {
   const Eigen::Vector2d p =
       stock.map_origin.head<2>() + stock.map_axes * Eigen::Vector2d(P.head<2>());
   const double height = P.z() + stock.map_origin.z();
-  return height <= greatest_height(*stock.map, p.x(), p.y(), scene.reach);
+  return height <= greatest_height(*stock.map, p.x(), p.y(), reach);
 }
 
 // Samples from first to last, not wrapped.
@@ -183,7 +228,7 @@ Window window(const Scene& scene, const Edge& edge) {
     const auto* plane = std::get_if<HalfSpace>(&face);
     if (plane == nullptr) continue;
     const double level = std::hypot(plane->n.x(), plane->n.y());
-    const double room = plane->h + scene.reach * level - z * plane->n.z();
+    const double room = plane->h + scene.largest * level - z * plane->n.z();
     const double swing = edge.r * edge.element->sin_q * level;
     if (room >= swing) continue;   // inside all round
     if (room < -swing) return {};  // never inside
@@ -203,13 +248,24 @@ Window window(const Scene& scene, const Edge& edge) {
 void search(const Scene& scene, const Edge& edge, const Before& before, std::int32_t element,
             std::vector<Found>& found) {
   const int N = scene.cut.samples;
-  const double least = least_b(edge, before, scene.reach);
+  const Deflections& centre = scene.around.centre;
+  const double spread = 2 * scene.around.reach;
+  const double least = least_b(edge, before, 2 * scene.largest);
+  const double surely = least_b(edge, before, spread);
+  const int slipped = centre.empty() ? 0 : slip(scene, edge, before);
+  const auto cuts_deeper = [&](double b, int sample) {  // than the tooth before, perhaps
+    if (b > surely) return true;
+    return b > least && b > least_b(edge, before, spread + moved_within(scene, sample, slipped));
+  };
   const auto [first, last] = window(scene, edge);
   std::int32_t sample = ((first % N) + N) % N;
   for (int i = first; i <= last; ++i) {
     const Aim at = aim(scene, edge, sample);
-    if (at.N.dot(scene.fd) > least && is_in_stock(scene, point(edge, at)))
-      found.push_back({sample, element});
+    if (cuts_deeper(at.N.dot(scene.fd), sample)) {
+      Eigen::Vector3d P = point(edge, at);
+      if (!centre.empty()) P.head<2>() += centre[static_cast<std::size_t>(sample) % centre.size()];
+      if (is_in_stock(scene, P)) found.push_back({sample, element});
+    }
     sample = sample + 1 < N ? sample + 1 : 0;
   }
 }
@@ -246,6 +302,24 @@ Chip chip_at(const Scene& scene, const Edge& edge, const Aim& at) {
   return chip;
 }
 
+// Is an element of these terms in the stock wherever the deflection may be?
+bool is_far_inside(const Scene& scene, const Term* terms, std::int32_t sample) {
+  const Stock& stock = scene.cut.stock;
+  if (stock.map) return false;
+  const Deflections& centre = scene.around.centre;
+  const Eigen::Vector2d U = centre.empty()
+                                ? Eigen::Vector2d::Zero().eval()
+                                : centre[static_cast<std::size_t>(sample) % centre.size()];
+  const std::size_t faces = stock.faces.size();
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < scene.boundaries.size(); ++i) {
+    const bool is_in = is_far_inside(scene.boundaries[i], terms[i], U, scene.around.reach);
+    if (!is_in && i >= faces) return false;
+    inside += is_in && i < faces ? 1 : 0;
+  }
+  return faces == 0 || (stock.combine == Combine::All ? inside == faces : inside > 0);
+}
+
 ToothChips tooth_chips(const Scene& scene, int tooth, ToothChips out) {
   const Cut& cut = scene.cut;
   std::vector<Edge> edges;
@@ -275,19 +349,20 @@ ToothChips tooth_chips(const Scene& scene, int tooth, ToothChips out) {
     for (const Boundary& boundary : scene.boundaries) {
       out.terms.push_back(term_at(boundary, point(edge, at)));
     }
+    out.chips.back().is_inside =
+        is_far_inside(scene, out.terms.data() + out.terms.size() - scene.boundaries.size(), sample);
   }
   return out;
 }
 
 }  // namespace
 
-ChipTable chip_table(const Cut& cut, double reach, ChipTable spent) {
-  const Scene view = scene(cut, reach);
+ChipTable chip_table(const Cut& cut, Around around, ChipTable spent) {
+  const Scene view = scene(cut, around);
   const int z = teeth(cut.cutter);
   const bool one_for_all = is_periodic(cut.cutter) && cut.samples % z == 0;
   ChipTable table = std::move(spent);
   table.cut = cut;
-  table.reach = reach;
   table.pitch_samples = one_for_all ? cut.samples / z : 0;
   table.curves.clear();
   for (const Boundary& boundary : view.boundaries) {
@@ -297,6 +372,7 @@ ChipTable chip_table(const Cut& cut, double reach, ChipTable spent) {
   for (std::size_t k = 0; k < table.teeth.size(); ++k) {
     table.teeth[k] = tooth_chips(view, static_cast<int>(k), std::move(table.teeth[k]));
   }
+  table.around = std::move(around);
   return table;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/cutting/cut.hpp"
+#include "core/cutting/response.hpp"
 
 namespace ridgeline::cutting {
 
@@ -27,6 +28,7 @@ struct Chip {
   double base = 0;     ///< height of the point of the axis that N starts from, from O' [mm]
   Earlier earlier;     ///< the tooth before
   std::int32_t element = 0;
+  bool is_inside = false;  ///< in the stock wherever the deflection of the table may be
 };
 
 /// g(U) = g0 + gx Ux + gy Uy + curve |U_perp|^2 <= 0: the element is in the material of one face.
@@ -51,11 +53,17 @@ struct ToothChips {
   std::vector<Earlier> earlier;  ///< second, third, ... tooth back of each chip
 };
 
-/// Every chip that can be cut while no deflection exceeds `reach`. A periodic cutter needs one
-/// tooth only: tooth k at sample i is tooth 0 at sample i + k N / z.
+/// The deflections that a table serves: each within `reach` of `centre` at its sample.
+struct Around {
+  double reach = 0;         ///< [mm]
+  Deflections centre = {};  ///< of one tooth period of equal teeth; empty: none at all
+};
+
+/// Every chip that can be cut while the deflection stays within `around`. A periodic cutter needs
+/// one tooth only: tooth k at sample i is tooth 0 at sample i + k N / z.
 struct ChipTable {
   Cut cut;
-  double reach = 0;       ///< [mm]
+  Around around;
   int pitch_samples = 0;  ///< N / z when one tooth stands for all, else 0
   std::vector<ToothChips> teeth;
   std::vector<Curve> curves;  ///< of each term
@@ -64,6 +72,6 @@ struct ChipTable {
 /// Builds the table: (6), (7), (11)..(13), (17), (22), directions of (14)..(16). `cut` is valid.
 /// `spent`: a table no longer needed, whose memory is used again; along a path that saves more time
 /// than the geometry takes.
-ChipTable chip_table(const Cut& cut, double reach, ChipTable spent = {});
+ChipTable chip_table(const Cut& cut, Around around, ChipTable spent = {});
 
 }  // namespace ridgeline::cutting

@@ -201,7 +201,7 @@ public:
     double used = 0;
     for (const Eigen::Vector2d& U : D) used = std::max(used, U.norm());
     constexpr double beyond = 0.05;  // elements a sample before they enter are wanted too
-    const ChipTable table = chip_table(cut, used + cut.cutter.offset + beyond);
+    const ChipTable table = chip_table(cut, {used + cut.cutter.offset + beyond});
     const SteadyCut steady(table, D, engaging);
     const int z = teeth(cut.cutter);
     const int length = table.pitch_samples > 0 ? cut.samples / z : cut.samples;

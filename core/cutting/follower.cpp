@@ -15,6 +15,7 @@ IterateOptions iterate_options(const Course& course, const AlongOptions& options
   const bool alike = is_periodic(course.cutter) && course.samples % teeth(course.cutter) == 0;
   used.span = alike ? Span::Pitch : Span::Revolution;
   used.guard = LowPassGuard::Off;
+  used.keeps_history = false;
   used.largest = chattering * course.cutter.r;
   if (options.method == Method::Rigid) used.max_loops = 1;
   return used;

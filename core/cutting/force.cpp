@@ -31,9 +31,12 @@ Eigen::Vector2d offset_at(const Cut& cut, int sample) {
   return cut.cutter.offset * Eigen::Vector2d(-std::cos(at), std::sin(at));
 }
 
-double greatest_deflection(const Cut& cut, const Deflections& D) {
+double greatest_deflection(const Cut& cut, const Deflections& D, const Deflections& centre) {
   double greatest = 0;
-  for (const Eigen::Vector2d& U : D) greatest = std::max(greatest, U.squaredNorm());
+  for (std::size_t i = 0; i < D.size(); ++i) {
+    const Eigen::Vector2d from = centre.empty() ? Eigen::Vector2d::Zero().eval() : centre[i];
+    greatest = std::max(greatest, (D[i] - from).squaredNorm());
+  }
   return std::sqrt(greatest) + cut.cutter.offset;
 }
 

@@ -21,8 +21,8 @@ struct Revolution {
   int cut_steps = 0;              ///< samples of a whole revolution in which tooth 0 cuts
 };
 
-/// Steps S201..S207: F(theta) under the first deflection D1, of N samples (a pitch: N / z). No
-/// |D1| may exceed table.reach.
+/// Steps S201..S207: F(theta) under the first deflection D1, of N samples (a pitch: N / z). D1
+/// must lie within table.around.
 Revolution revolution_force(const ChipTable& table, const Deflections& D1, Span span);
 
 /// (25)..(27): smallest e' of all points that cut, at the deflection D4; `revolution` is the last
@@ -31,8 +31,9 @@ Revolution revolution_force(const ChipTable& table, const Deflections& D1, Span 
 std::optional<double> machining_error(const ChipTable& table, const Revolution& revolution,
                                       const Deflections& D4, Span span, const Eigen::Vector3d& n);
 
-/// Largest |D| with the offset of the axis added, what the reach of a table must cover [mm].
-double greatest_deflection(const Cut& cut, const Deflections& D);
+/// Largest |D| with the offset of the axis added, what the reach of a table must cover [mm]. With a
+/// centre of as many samples: largest |D - centre|.
+double greatest_deflection(const Cut& cut, const Deflections& D, const Deflections& centre = {});
 
 /// K_c and K_e of every chip times these.
 void scale_forces(ChipTable& table, double cut_scale, double edge_scale);

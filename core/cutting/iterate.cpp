@@ -70,6 +70,11 @@ private:
   int since_least_ = 0;
 };
 
+// How far the deflection may go from where a segment begins, and from where it has come to when
+// that was too little; of its greatest.
+constexpr double first_margin = 0.35;
+constexpr double next_margin = 0.6;
+
 // kappa / tc, which must leave the tool its resonances: at 1.4 fn the error moves by 0.8 um, at 2
 // fn by 0.1 um (design: section 5). nullopt: it does not, and the cut goes without.
 std::optional<double> checked_cutoff(const IterateOptions& options, double tc,
@@ -91,11 +96,21 @@ std::optional<double> checked_cutoff(const IterateOptions& options, double tc,
 Iteration::Iteration(const Compliance& compliance, double S, IterateOptions options)
     : compliance_(compliance), S_(S), options_(std::move(options)) {}
 
-// Searches the chips for the deflection in use; the memory of the table before serves again.
-void Iteration::make_room(const Cut& cut, double used) {
+// Searches the chips for the deflection in use; the memory of the table before serves again. Of
+// equal teeth that begin from a deflection, only the chips round that: `margin` of it is what it
+// may still change.
+void Iteration::make_room(const Cut& cut, const Deflections& D, double margin) {
   constexpr double least_reach = 0.02;
-  constexpr double margin = 1.5;
-  table_ = chip_table(cut, std::max(least_reach, margin * used), std::move(table_));
+  constexpr double least_change = 0.001;
+  constexpr double further = 1.5;
+  const double used = greatest_deflection(cut, D);
+  Around around;
+  if (is_centred_) {
+    around = {std::max(least_change, margin * used), D};
+  } else {
+    around.reach = std::max(least_reach, further * used);
+  }
+  table_ = chip_table(cut, std::move(around), std::move(table_));
   scale_forces(table_, cut_scale_, edge_scale_);
 }
 
@@ -112,13 +127,16 @@ Prediction Iteration::solve(const Cut& cut, const Eigen::Matrix2d& axes, const D
   axes_ = axes;
   cut_scale_ = edge_scale_ = 1;
   Deflections D1 = resampled(start, samples_);
-  make_room(cut, greatest_deflection(cut, D1));
+  is_centred_ = !start.empty() && options_.span == Span::Pitch && is_periodic(cut.cutter) &&
+                cut.samples % teeth(cut.cutter) == 0;
+  make_room(cut, D1, first_margin);
   return loops(std::move(D1), progress);
 }
 
 void Iteration::adopt(const Cut& cut, Deflections D) {
   cut_scale_ = edge_scale_ = 1;
-  make_room(cut, greatest_deflection(cut, D));
+  is_centred_ = false;
+  make_room(cut, D, first_margin);
   span_ = Span::Revolution;
   revolution_ = revolution_force(table_, D, span_);
   D_ = std::move(D);
@@ -153,8 +171,10 @@ Prediction Iteration::loops(Deflections D1, const Progress& progress) {
     }
     D_ = response_->deflections(revolution_.F, cutoff);
     out.A.push_back(residual(D_, D1) * z);
-    out.e = machining_error(table_, revolution_, D_, options_.span, table_.cut.n);
-    out.e_history.push_back(out.e);
+    if (options_.keeps_history) {
+      out.e_history.push_back(
+          machining_error(table_, revolution_, D_, options_.span, table_.cut.n));
+    }
     const double lambda = options_.alpha * squared_sum(D_) * z;  // (2)
     out.converged = out.A.back() < lambda || out.A.back() == 0;
     if (out.converged || out.loops >= options_.max_loops) break;
@@ -166,16 +186,18 @@ Prediction Iteration::loops(Deflections D1, const Progress& progress) {
       }
       average(D1, D_, weights.w1());
     }
-    if (const double used = greatest_deflection(table_.cut, D1); used > table_.reach) {
-      if (used > options_.largest) break;
-      make_room(Cut(table_.cut), used);
+    const Around& around = table_.around;
+    if (greatest_deflection(table_.cut, D1, around.centre) > around.reach) {
+      if (greatest_deflection(table_.cut, D1) > options_.largest) break;
+      make_room(Cut(table_.cut), D1, next_margin);
     }
   }
+  out.e = machining_error(table_, revolution_, D_, options_.span, table_.cut.n);
   out.cut_points = revolution_.cut_points;
   out.F = revolution_.F;
   out.D = D_;
   out.w1 = weights.w1();
-  out.reach = table_.reach;
+  out.reach = table_.around.reach;
   return out;
 }
 

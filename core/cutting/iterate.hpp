@@ -31,6 +31,7 @@ struct IterateOptions {
   std::optional<double> kappa;  ///< low-pass at kappa / tc; absent: none
   LowPassGuard guard = LowPassGuard::Refuse;
   Span span = Span::Revolution;
+  bool keeps_history = true;  ///< the error after each loop
 };
 
 /// At which loop w1 became what.
@@ -88,7 +89,7 @@ public:
 
 private:
   Prediction loops(Deflections D1, const Progress& progress);
-  void make_room(const Cut& cut, double used);
+  void make_room(const Cut& cut, const Deflections& D, double margin);
 
   Compliance compliance_;
   double S_;
@@ -102,6 +103,7 @@ private:
   Secants secants_;
   Eigen::Matrix2d axes_ = Eigen::Matrix2d::Identity();
   double cut_scale_ = 1, edge_scale_ = 1;
+  bool is_centred_ = false;  // the chips are those round a deflection
 };
 
 }  // namespace ridgeline::cutting

@@ -50,7 +50,8 @@ Eigen::Vector3d force_at(const ChipTable& table, int sample, const Eigen::Vector
     };
     for (std::size_t index = row.from; index < row.to; ++index) {
       const ChipPlace at{row.tooth, index, terms, back};
-      const double t = is_engaged(table, at, U) ? chip_thickness(table, at, U, at_theta_o) : 0;
+      const bool is_in = at.chip().is_inside || is_engaged(table, at, U);
+      const double t = is_in ? chip_thickness(table, at, U, at_theta_o) : 0;
       const bool cuts = t > least_chip;
       on_chip(at.chip(), row, cuts, t);
       if (cuts) F += at.chip().Fe + t * at.chip().Fc;

@@ -25,30 +25,37 @@ Eigen::Map<const Eigen::VectorXd> flat(const Deflections& D) {
 
 void Secants::clear() {
   differences_.clear();
+  products_.resize(0, 0);
   has_last_ = false;
+}
+
+void Secants::learn(const Eigen::VectorXd& D, const Eigen::VectorXd& R) {
+  if (differences_.size() == most_differences) {
+    differences_.pop_front();
+    products_ = products_.bottomRightCorner(products_.rows() - 1, products_.cols() - 1).eval();
+  }
+  differences_.push_back({R - last_.R, (D - last_.D) + (R - last_.R)});
+  const auto count = static_cast<Eigen::Index>(differences_.size());
+  products_.conservativeResize(count, count);
+  for (Eigen::Index j = 0; j < count; ++j)
+    products_(count - 1, j) =
+        differences_.back().R.dot(differences_[static_cast<std::size_t>(j)].R);
+  products_(count - 1, count - 1) *= 1 + damping;
 }
 
 // Least squares: R - sum share_i dR_i is least.
 Eigen::VectorXd Secants::shares(const Eigen::VectorXd& R) const {
-  const auto count = static_cast<Eigen::Index>(differences_.size());
-  Eigen::MatrixXd products(count, count);
-  Eigen::VectorXd with_R(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Eigen::VectorXd& dR = differences_[static_cast<std::size_t>(i)].R;
-    with_R[i] = dR.dot(R);
-    for (Eigen::Index j = 0; j <= i; ++j)
-      products(i, j) = dR.dot(differences_[static_cast<std::size_t>(j)].R);
-    products(i, i) *= 1 + damping;
-  }
-  return products.selfadjointView<Eigen::Lower>().ldlt().solve(with_R);
+  Eigen::VectorXd with_R(products_.rows());
+  for (Eigen::Index i = 0; i < with_R.size(); ++i)
+    with_R[i] = differences_[static_cast<std::size_t>(i)].R.dot(R);
+  return products_.selfadjointView<Eigen::Lower>().ldlt().solve(with_R);
 }
 
 Deflections Secants::next(const Deflections& D1, const Deflections& D4) {
   const Eigen::VectorXd D = flat(D1);
   const Eigen::VectorXd R = flat(D4) - D;
-  if (!differences_.empty() && differences_.front().D.size() != D.size()) clear();
-  if (has_last_) differences_.push_back({D - last_.D, R - last_.R});
-  if (differences_.size() > most_differences) differences_.pop_front();
+  if (!differences_.empty() && differences_.front().R.size() != D.size()) clear();
+  if (has_last_) learn(D, R);
   last_ = {D, R};
   has_last_ = true;
 
@@ -56,10 +63,8 @@ Deflections Secants::next(const Deflections& D1, const Deflections& D4) {
   if (!differences_.empty()) {
     const Eigen::VectorXd share = shares(R);
     Eigen::VectorXd step = R;
-    for (Eigen::Index i = 0; i < share.size(); ++i) {
-      const Pair& difference = differences_[static_cast<std::size_t>(i)];
-      step -= share[i] * (difference.D + difference.R);
-    }
+    for (Eigen::Index i = 0; i < share.size(); ++i)
+      step -= share[i] * differences_[static_cast<std::size_t>(i)].D_and_R;
     const double longest = longest_step * std::max(D.norm(), flat(D4).norm());
     if (step.norm() <= longest)
       moved = D + step;

@@ -23,13 +23,19 @@ public:
   void clear();
 
 private:
-  struct Pair {
+  struct Loop {
     Eigen::VectorXd D, R;
   };
+  struct Difference {
+    Eigen::VectorXd R;
+    Eigen::VectorXd D_and_R;  ///< sum of both
+  };
+  void learn(const Eigen::VectorXd& D, const Eigen::VectorXd& R);
   Eigen::VectorXd shares(const Eigen::VectorXd& R) const;
 
-  std::deque<Pair> differences_;
-  Pair last_;
+  std::deque<Difference> differences_;
+  Eigen::MatrixXd products_;  ///< of the R of the differences, the lower half
+  Loop last_;
   bool has_last_ = false;
 };
 

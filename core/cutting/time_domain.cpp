@@ -119,7 +119,7 @@ private:
   }
 
   Eigen::Vector3d force(int i, const Eigen::Vector2d& U) {
-    if (const double moved = U.norm(); !(moved <= table_.reach)) {
+    if (const double moved = U.norm(); !(moved <= table_.around.reach)) {
       if (!(moved < largest_)) {
         throw Error(ErrorCode::NotConverged,
                     "time domain: the vibration outgrows the tool, the cut is unstable");
@@ -137,7 +137,7 @@ private:
   }
 
   void search(const Cut& cut, double reach) {
-    table_ = chip_table(Cut(cut), reach);
+    table_ = chip_table(Cut(cut), {reach});
     history_.make_room(longest_delay(table_));
   }
 

@@ -46,7 +46,7 @@ class Run {
 public:
   Run(const Cut& cut, const Compliance& compliance, double S, int revolutions, double cell)
       : cut_(cut),
-        table_(chip_table(cut, 0.1)),
+        table_(chip_table(cut, {0.1})),
         x_(modes_of(compliance.x), 1 / (S * cut.samples)),
         y_(modes_of(compliance.y), 1 / (S * cut.samples)) {
     plane_.u = feed_direction(cut);

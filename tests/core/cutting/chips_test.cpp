@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <random>
 
 #include "core/cutting/chip_force.hpp"
+#include "core/cutting/force.hpp"
 #include "tests/core/cutting/oracle_case.hpp"
 
 namespace ridgeline::cutting {
@@ -14,7 +16,7 @@ using std::numbers::pi;
 
 // Every chip of every element: a reach beyond the tool leaves nothing out.
 ChipTable whole_table(const Cut& cut) {
-  return chip_table(cut, 10 * cut.cutter.r);
+  return chip_table(cut, {10 * cut.cutter.r});
 }
 
 // Chip of one tooth at one sample and element: all elements are there, in order.
@@ -82,7 +84,71 @@ TEST(Chips, WindowsLoseNoChip) {
       expected += can_cut(whole, i, reach) ? 1U : 0U;
     }
     EXPECT_GT(expected, 100U);
-    EXPECT_EQ(chip_table(cut, reach).teeth[0].chips.size(), expected);
+    EXPECT_EQ(chip_table(cut, {reach}).teeth[0].chips.size(), expected);
+  }
+}
+
+// A vibration with some harmonics, and another within `reach` of it.
+struct Vibration {
+  Deflections centre, near;
+};
+Vibration vibration(int samples, double reach, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> any(-1, 1);
+  Vibration out;
+  std::vector<Eigen::Vector4d> parts;
+  for (int k = 0; k < 12; ++k)
+    parts.emplace_back(0.02 * Eigen::Vector4d(any(random), any(random), any(random), any(random)));
+  for (int i = 0; i < samples; ++i) {
+    Eigen::Vector2d U = Eigen::Vector2d::Zero();
+    for (int k = 0; k < 12; ++k) {
+      const double at = 2 * pi * k * i / samples;
+      U += std::cos(at) * parts[static_cast<std::size_t>(k)].head<2>() +
+           std::sin(at) * parts[static_cast<std::size_t>(k)].tail<2>();
+    }
+    const double angle = pi * any(random);
+    out.centre.push_back(U);
+    out.near.push_back(U + 0.999 * reach * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+  }
+  return out;
+}
+
+// Chips that the narrower search leaves out, or takes for inside the stock, would change the force.
+TEST(Chips, RoundADeflectionNoneThatCutsIsLost) {
+  std::mt19937_64 random(6);
+  std::vector<Cut> cuts;
+  for (const char* name :
+       {"01-ball-down-milling-1-groove.json", "03-ball-third-pass-low-pass-kappa-2.json",
+        "09-square-down-milling-helix-5.json",
+        "11-extensions-stock-limited-chip-3-earlier-teeth.json"})
+    cuts.push_back(oracle::cut(oracle::file(name)["case"]));
+  Cut tip = cuts.front();  // with its lowest elements in the stock, and beyond its equator
+  tip.n = {0, 0, 1};
+  tip.stock.grooves.clear();
+  tip.stock.faces = {HalfSpace{tip.n, 0.23 - tip.cutter.r}};
+  tip.cutter.q_end = 2.5;
+  cuts.push_back(tip);
+  for (const Combine combine : {Combine::All, Combine::Any}) {
+    Cut wedge = cuts.front();
+    wedge.stock.combine = combine;
+    wedge.stock.grooves.clear();
+    wedge.stock.faces.emplace_back(HalfSpace{{0.6, 0, 0.8}, -0.8});
+    cuts.push_back(wedge);
+  }
+  int cutting = 0;
+  for (const Cut& cut : cuts) {
+    SCOPED_TRACE(cutting);
+    const double reach = 0.005;
+    const int samples = cut.samples / teeth(cut.cutter);
+    const auto [centre, near] = vibration(samples, reach, random);
+    const ChipTable wide = chip_table(cut, {1});
+    const ChipTable narrow = chip_table(cut, {reach, centre});
+    EXPECT_LT(narrow.teeth[0].chips.size(), wide.teeth[0].chips.size());
+    const Revolution expected = revolution_force(wide, near, Span::Pitch);
+    const Revolution found = revolution_force(narrow, near, Span::Pitch);
+    EXPECT_EQ(found.cut_points, expected.cut_points);
+    EXPECT_EQ(found.F, expected.F);
+    EXPECT_GT(expected.cut_points, 100);
+    ++cutting;
   }
 }
 
