@@ -139,6 +139,7 @@ Json block_edges(const Json& mouths, const std::string& name,
           {"workpieces", std::move(workpieces)},
           {"edges", std::move(edges)},
           {"unnamed", std::move(unnamed)},
+          {"mouths", mouths.at("mouths")},
           {"jobs", std::move(jobs)}};
 }
 

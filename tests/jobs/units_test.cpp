@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "jobs/answer.hpp"
@@ -266,6 +268,34 @@ TEST(UnitsJob, PictureAndTreeNameEveryUnit) {
     EXPECT_NE(svg.find("class=\"unit" + std::to_string(i) + "\""), std::string::npos) << i;
   EXPECT_NE(tree.find("24 hole  diameter 6"), std::string::npos) << tree;
   EXPECT_NE(answer(job, "html", NoDefinitions()).text.find("<pre>"), std::string::npos);
+}
+
+// The drawing of the part: design of units, section 4. Nine round mouths, two slots and one of
+// equal diameters where cylinders meet, and one that is not closed on one wall.
+TEST(UnitsJob, MouthsOfAManifoldComeWithTheirParameters) {
+  const Json found = run(
+      {{"job", "units"}, {"operation", "holes"}, {"product_step", content("own_manifold.step")}});
+  ASSERT_EQ(found["status"], "ok") << found.dump();
+  std::map<std::string, int> kinds;
+  bool has_eccentric = false, has_oblique = false;
+  for (const Json& mouth : found["mouths"]) {
+    ++kinds[mouth["kind"]];
+    const double wall = mouth["wall"]["radius"];
+    const double radius = mouth["radius"];
+    const double angle = mouth["crossing_angle"];
+    const double aside = mouth["eccentric_distance"];
+    const auto is = [](double a, double b) { return std::abs(a - b) < 5e-5; };
+    has_eccentric |= is(wall, 10) && is(radius, 5) && is(angle, 90) && is(aside, 4);
+    has_oblique |= is(wall, 10) && is(radius, 4) && is(angle, 45) && is(aside, 0);
+    if (mouth["kind"] == "slot") {
+      EXPECT_NEAR(mouth["length"].get<double>(), 26, 5e-5);
+    }
+  }
+  EXPECT_TRUE(has_eccentric);
+  EXPECT_TRUE(has_oblique);
+  EXPECT_GE(kinds["round"], 9);
+  EXPECT_EQ(kinds["slot"], 2);
+  EXPECT_EQ(kinds["equal_diameters"], 1);
 }
 
 }  // namespace
