@@ -48,7 +48,8 @@ void declare(CLI::App& app, Options& options) {
                                   : "must be 1 to 64 of letters, digits, '_', '-', '.'";
       });
   app.add_option("--domain", options.server.domain, "DDS domain (default 0)")
-      ->check(CLI::Range(0U, dds::max_domain));
+      ->check(CLI::Range(0U, dds::max_domain))
+      ->envname("RIDGELINE_DOMAIN");
   app.add_option("--workers", options.server.limits.workers,
                  "Jobs that are computed at once (default: one for each processor)")
       ->check(CLI::Range(1U, 1024U));

@@ -39,6 +39,9 @@ Outcome import_part(const Session& session, const std::string& path);
 /// status: the live instances of the service.
 void add_status_command(CLI::App& app, Selected& selected);
 
+/// watch: the same, updated as they work.
+void add_watch_command(CLI::App& app, Selected& selected);
+
 /// batch: many jobs, over all the instances there are.
 void add_batch_command(CLI::App& app, Selected& selected);
 

@@ -22,7 +22,8 @@ void add_options(CLI::App& app, Options& options) {
       ->needs(local);
   app.add_option("--domain", options.domain, "DDS domain of the service")
       ->check(CLI::Range(0, 100))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->envname("RIDGELINE_DOMAIN");
   app.add_option("--instance", options.instance,
                  "Ask this instance alone (default: the one with the least to do)")
       ->envname("RIDGELINE_INSTANCE");
@@ -78,6 +79,7 @@ int run(int argc, char** argv) {
   add_batch_command(app, selected);
   add_units_commands(app, selected);
   add_status_command(app, selected);
+  add_watch_command(app, selected);
   manual::add_manual_option(app, {1, "\\fBridgelined\\fR(8), /usr/share/doc/ridgeline"});
   try {
     app.parse(argc, argv);
