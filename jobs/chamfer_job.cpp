@@ -88,7 +88,7 @@ chamfer::SectionAngle read_section_angle(Object& object) {
   if (value->json().is_number())
     return chamfer::ConstantAngle{radians(value->number(section_angle_range))};
   if (value->json().is_array()) return read_angle_table(*value);
-  if (value->json() != "bisector")
+  if (!value->is_word("bisector"))
     value->refuse("\"bisector\", an angle in degrees or a table [[phi, angle], ...]");
   return chamfer::Bisector{};
 }
@@ -236,7 +236,7 @@ std::string_view name(Direction direction) {
 ChamferJob read_chamfer_job(const Value& value, const Definitions& definitions) {
   Object object(value);
   const Value kind = object.required("job");
-  if (kind.json() != "chamfer") kind.refuse("\"chamfer\"");
+  if (!kind.is_word("chamfer")) kind.refuse("\"chamfer\"");
   ChamferJob result;
   chamfer::Job& job = result.job;
   job.edge = object.required("edge").choice(edges);

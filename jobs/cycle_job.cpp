@@ -320,7 +320,7 @@ macro::Cycle read_cycle(Object& job) {
   cycle.family = family.family;
   cycle.edge = family.edge;
   const auto method = job.optional("method");
-  if (method && !method->json().is_null()) cycle.method = method->integer(1, 2);
+  if (method && !method->is_null()) cycle.method = method->integer(1, 2);
   Params params(job.required("params"));
   if (cycle.family == Family::Rotation) {
     read_rotation(params, cycle);

@@ -44,7 +44,7 @@ constexpr double max_penetration_angle = 80;  // design: chamfer.md section 1
 /// An inline object may carry its kind, a library definition must: it has to be `kind`.
 void check_kind(Object& object, std::string_view kind) {
   const std::optional<Value> value = object.optional("kind");
-  if (value && value->string() != kind) value->refuse("\"" + std::string(kind) + "\"");
+  if (value && !value->is_word(kind)) value->refuse("\"" + std::string(kind) + "\"");
 }
 
 std::string optional_name(Object& object, std::string_view key) {

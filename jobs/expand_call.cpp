@@ -183,7 +183,7 @@ nc::BoundMacro read_letters(int number, const Value& value) {
   nc::BoundMacro macro{.number = number, .letters = {}};
   Object object(value);
   for (const auto& [key, text] : value.json().items()) {
-    const Value meaning = object.required(key);
+    const Value meaning(text, value.pointer() + "/" + pointer_token(key));
     if (!is_meaning(meaning.string())) meaning.refuse(meanings());
     macro.letters.push_back({read_letter(key, meaning), meaning.string()});
   }
@@ -193,10 +193,12 @@ nc::BoundMacro read_letters(int number, const Value& value) {
 void read_names(const Value& value, BoundCall& bound) {
   Object letters(value);
   for (const auto& [key, table] : value.json().items()) {
-    const Value of_letter = letters.required(key);
+    const Value of_letter(table, value.pointer() + "/" + pointer_token(key));
     Object names(of_letter);
-    for (const auto& [number, name] : of_letter.json().items())
-      bound.names[read_letter(key, of_letter)][number] = names.required(number).name();
+    for (const auto& [number, name] : table.items()) {
+      const Value named(name, of_letter.pointer() + "/" + pointer_token(number));
+      bound.names[read_letter(key, of_letter)][number] = named.name();
+    }
   }
 }
 

@@ -27,7 +27,7 @@ int number_in(const std::string& key, const Value& value, int max) {
 }
 
 void read_object(const Value& value) {
-  if (!value.json().is_object()) value.refuse("an object");
+  Object{value};
 }
 
 /// A name that is not a number with or without O before it, as <NAME> calls it.
@@ -126,7 +126,7 @@ void read_variables(const Value& value, std::map<int, macro::Value>& set) {
   for (const auto& [key, number] : value.json().items()) {
     const int variable = number_in(key, value, max_variable);
     const Value each(number, value.pointer() + "/" + pointer_token(key));
-    set[variable] = number.is_null() ? macro::Value() : macro::Value(each.number_or_text());
+    set[variable] = each.is_null() ? macro::Value() : macro::Value(each.number_or_text());
   }
 }
 
@@ -194,20 +194,20 @@ MacroJob read_macro_job(Object& job) {
   }
   macro::Options& options = read.options;
   if (const auto profile = job.optional("profile")) options.profile = read_profile(*profile);
-  if (const auto switches = job.optional("opts"); switches && !switches->json().is_null()) {
+  if (const auto switches = job.optional("opts"); switches && !switches->is_null()) {
     Object object(*switches);
     read_switches(object, options.profile);
     object.finish();
   }
-  if (const auto offsets = job.optional("wcs"); offsets && !offsets->json().is_null()) {
+  if (const auto offsets = job.optional("wcs"); offsets && !offsets->is_null()) {
     read_object(*offsets);
     read_work_offsets(*offsets, options.set);
   }
-  if (const auto tools = job.optional("tools"); tools && !tools->json().is_null()) {
+  if (const auto tools = job.optional("tools"); tools && !tools->is_null()) {
     read_object(*tools);
     read_tools(*tools, options.profile, options.set);
   }
-  if (const auto set = job.optional("set"); set && !set->json().is_null()) {
+  if (const auto set = job.optional("set"); set && !set->is_null()) {
     read_object(*set);
     read_variables(*set, options.set);
   }

@@ -31,7 +31,7 @@ cutting::Uncertainty read_uncertainty(const Value& value) {
 
 Material read_material(const Value& value) {
   Object object(value);
-  if (const std::optional<Value> kind = object.optional("kind"); kind && kind->json() != "material")
+  if (const std::optional<Value> kind = object.optional("kind"); kind && !kind->is_word("material"))
     kind->refuse("\"material\"");
   Material material;
   if (const std::optional<Value> name = object.optional("name")) material.name = name->name();

@@ -25,9 +25,9 @@ Answer predict_along(Object& job, const Value& along, const Request& request) {
   if (request.format == "nc" && !asks_for_correction(job))
     refuse_program("the program of a prediction is the corrected one: ask for it by \"correct\"");
   const Value kind = Object(along).required("job");
-  if (kind.json() == "chamfer") return predict_chamfer(job, along, request);
-  if (kind.json() == "program") return predict_nc(job, along, request);
-  if (kind.json() == "cycle") return predict_cycle(job, along, request);
+  if (kind.is_word("chamfer")) return predict_chamfer(job, along, request);
+  if (kind.is_word("program")) return predict_nc(job, along, request);
+  if (kind.is_word("cycle")) return predict_cycle(job, along, request);
   kind.refuse("\"chamfer\", \"cycle\" or \"program\"");
 }
 

@@ -167,8 +167,7 @@ void read_options(const Value& value, cutting::Engagement& engagement) {
     o.weights = weights->numbers(between(0, 1e6, ""));
     if (o.weights.empty()) weights->refuse("at least one weight");
   }
-  if (const std::optional<Value> kappa = object.optional("kappa");
-      kappa && !kappa->json().is_null())
+  if (const std::optional<Value> kappa = object.optional("kappa"); kappa && !kappa->is_null())
     o.kappa = kappa->number(inside(0, 1e6, ""));
   engagement.time.max_revolutions =
       object.integer("max_revolutions", 2, 10'000, engagement.time.max_revolutions);

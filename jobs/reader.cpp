@@ -23,6 +23,17 @@ bool is_control(char c) {
   return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
 }
 
+void note(const std::string& pointer, Reading::Type type, const Range& range = {}) {
+  if (Recording* recording = Recording::current())
+    recording->read(pointer, reading_of(type, range));
+}
+
+/// An array is noted with its sizes.
+Range sizes(std::size_t min, std::size_t max) {
+  const bool is_limited = max != std::numeric_limits<std::size_t>::max();
+  return {static_cast<double>(min), is_limited ? static_cast<double>(max) : Range{}.max, {}};
+}
+
 }  // namespace
 
 bool contains(const Range& range, double number) {
@@ -54,6 +65,7 @@ void Value::refuse(std::string_view limit) const {
 }
 
 double Value::number(const Range& range) const {
+  note(pointer_, Reading::Type::Number, range);
   if (!json_->is_number()) refuse("a number " + text(range));
   const double number = json_->get<double>();
   if (!contains(range, number)) refuse(text(range));
@@ -61,6 +73,7 @@ double Value::number(const Range& range) const {
 }
 
 double Value::number_or_text(const Range& range) const {
+  note(pointer_, Reading::Type::NumberOrText, range);
   if (!json_->is_string()) return number(range);
   std::string_view literal = json_->get_ref<const std::string&>();
   if (literal.starts_with('+')) literal.remove_prefix(1);
@@ -73,23 +86,45 @@ double Value::number_or_text(const Range& range) const {
 }
 
 int Value::integer(int min, int max) const {
+  note(pointer_, Reading::Type::Integer, between(min, max, {}));
   const double number = json_->is_number() ? json_->get<double>() : std::nan("");
   if (!(number >= min && number <= max && std::trunc(number) == number))
     refuse("a whole number from " + std::to_string(min) + " to " + std::to_string(max));
   return static_cast<int>(number);
 }
 
+void Value::note_words(std::span<const std::string_view> words) const {
+  Recording* recording = Recording::current();
+  if (recording == nullptr) return;
+  Reading reading = reading_of(Reading::Type::Words, any_number);
+  reading.words.assign(words.begin(), words.end());
+  recording->read(pointer_, std::move(reading));
+}
+
+bool Value::is_null() const {
+  note(pointer_, Reading::Type::Null);
+  return json_->is_null();
+}
+
+bool Value::is_word(std::string_view word) const {
+  note_words(std::span(&word, 1));
+  return json_->is_string() && json_->get_ref<const std::string&>() == word;
+}
+
 bool Value::boolean() const {
+  note(pointer_, Reading::Type::Boolean);
   if (!json_->is_boolean()) refuse("true or false");
   return json_->get<bool>();
 }
 
 const std::string& Value::string() const {
+  note(pointer_, Reading::Type::String);
   if (!json_->is_string()) refuse("a string");
   return json_->get_ref<const std::string&>();
 }
 
 const std::string& Value::name() const {
+  note(pointer_, Reading::Type::Name);
   const std::string limit =
       "a name of 1 to " + std::to_string(max_name_bytes) + " bytes without control characters";
   if (!json_->is_string()) refuse(limit);
@@ -101,11 +136,13 @@ const std::string& Value::name() const {
 }
 
 Eigen::Vector3d Value::vector3(const Range& range) const {
+  note(pointer_, Reading::Type::Vector, range);
   if (!json_->is_array() || json_->size() != 3) refuse("[x, y, z]");
   return {at(0).number(range), at(1).number(range), at(2).number(range)};
 }
 
 Eigen::Vector3d Value::direction() const {
+  note(pointer_, Reading::Type::Direction);
   const Eigen::Vector3d d = vector3(between(-1e9, 1e9, ""));
   const double length = d.norm();
   if (!(length >= 1e-9)) refuse("a direction [i, j, k] of length at least 1e-9");
@@ -113,6 +150,7 @@ Eigen::Vector3d Value::direction() const {
 }
 
 std::vector<double> Value::numbers(const Range& range) const {
+  note(pointer_, Reading::Type::Numbers, range);
   if (!json_->is_array()) refuse("an array of numbers");
   std::vector<double> numbers;
   numbers.reserve(json_->size());
@@ -126,6 +164,7 @@ std::vector<double> Value::numbers(const Range& range) const {
 }
 
 std::vector<Value> Value::array(std::size_t min_size, std::size_t max_size) const {
+  note(pointer_, Reading::Type::Array, sizes(min_size, max_size));
   if (!json_->is_array()) refuse("an array");
   if (json_->size() < min_size)
     refuse("an array of at least " + std::to_string(min_size) + " elements");
@@ -147,6 +186,11 @@ Value Value::at(std::size_t index) const {
 
 Object::Object(const Value& value) : value_(value) {
   if (!value.json().is_object()) value.refuse("an object");
+  if (Recording* recording = Recording::current()) recording->object(pointer());
+}
+
+void Object::note_default(std::string_view key, const nlohmann::json& otherwise) const {
+  if (Recording* recording = Recording::current()) recording->otherwise(pointer(), key, otherwise);
 }
 
 std::string Object::pointer_of(std::string_view key) const {
@@ -155,11 +199,13 @@ std::string Object::pointer_of(std::string_view key) const {
 
 bool Object::has(std::string_view key) {
   known_.emplace(key);
+  if (Recording* recording = Recording::current()) recording->member(pointer(), key, false);
   return value_.json().contains(key);
 }
 
 Value Object::required(std::string_view key) {
   std::optional<Value> value = optional(key);
+  if (Recording* recording = Recording::current()) recording->member(pointer(), key, true);
   if (!value)
     jobs::refuse({.field = pointer_of(key),
                   .value = "missing",
@@ -170,6 +216,7 @@ Value Object::required(std::string_view key) {
 
 std::optional<Value> Object::optional(std::string_view key) {
   known_.emplace(key);
+  if (Recording* recording = Recording::current()) recording->member(pointer(), key, false);
   const auto found = value_.json().find(key);
   if (found == value_.json().end()) return std::nullopt;
   return Value(*found, pointer_of(key));
@@ -180,23 +227,36 @@ double Object::number(std::string_view key, const Range& range) {
 }
 
 double Object::number(std::string_view key, const Range& range, double otherwise) {
-  return optional_number(key, range).value_or(otherwise);
+  const std::optional<double> number = optional_number(key, range);
+  if (!number && Recording::current() != nullptr) note_default(key, otherwise);
+  return number.value_or(otherwise);
 }
 
 std::optional<double> Object::optional_number(std::string_view key, const Range& range) {
   const std::optional<Value> value = optional(key);
-  if (!value) return std::nullopt;
-  return value->number(range);
+  if (value) return value->number(range);
+  if (Recording::current() != nullptr) note(pointer_of(key), Reading::Type::Number, range);
+  return std::nullopt;
 }
 
 int Object::integer(std::string_view key, int min, int max, int otherwise) {
   const std::optional<Value> value = optional(key);
-  return value ? value->integer(min, max) : otherwise;
+  if (value) return value->integer(min, max);
+  if (Recording::current() != nullptr) {
+    note(pointer_of(key), Reading::Type::Integer, between(min, max, {}));
+    note_default(key, otherwise);
+  }
+  return otherwise;
 }
 
 bool Object::boolean(std::string_view key, bool otherwise) {
   const std::optional<Value> value = optional(key);
-  return value ? value->boolean() : otherwise;
+  if (value) return value->boolean();
+  if (Recording::current() != nullptr) {
+    note(pointer_of(key), Reading::Type::Boolean);
+    note_default(key, otherwise);
+  }
+  return otherwise;
 }
 
 void Object::refuse(std::string_view key, std::string_view limit) const {
@@ -218,6 +278,7 @@ void Object::exclude(std::string_view key, std::string_view other) {
 }
 
 void Object::finish() const {
+  if (Recording* recording = Recording::current()) recording->finish(pointer());
   for (const auto& [key, member] : value_.json().items()) {
     if (known_.contains(key)) continue;
     const std::vector<std::string> like = nearest(key, {known_.begin(), known_.end()}, 1);

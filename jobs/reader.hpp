@@ -6,11 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "jobs/recording.hpp"
 #include "jobs/refuse.hpp"
 #include "jobs/text.hpp"
 
@@ -83,6 +85,9 @@ public:
   /// A whole number (8000 and 8e3 alike).
   int integer(int min, int max) const;
   bool boolean() const;
+  bool is_null() const;
+  /// Is it this word? Otherwise it may be something else.
+  bool is_word(std::string_view word) const;
   /// Any string, e.g. a program.
   const std::string& string() const;
   /// A string of 1 to 64 bytes of valid UTF-8 without control characters.
@@ -90,11 +95,12 @@ public:
   /// One of the names; see Choices.
   template <class E, std::size_t n>
   E choice(const Choices<E, n>& choices) const {
+    std::array<std::string_view, n> names;
+    for (std::size_t i = 0; i < n; ++i) names[i] = choices[i].name;
+    note_words(names);
     if (json_->is_string())
       for (const Choice<E>& choice : choices)
         if (choice.name == json_->get_ref<const std::string&>()) return choice.value;
-    std::array<std::string_view, n> names;
-    for (std::size_t i = 0; i < n; ++i) names[i] = choices[i].name;
     refuse(alternatives(names));
   }
   /// [x, y, z], each in the range.
@@ -109,6 +115,8 @@ public:
   Object object() const;
 
 private:
+  friend class Object;
+  void note_words(std::span<const std::string_view> words) const;
   Value at(std::size_t index) const;
   const nlohmann::json* json_;
   std::string pointer_;
@@ -137,7 +145,14 @@ public:
   template <class E, std::size_t n>
   E choice(std::string_view key, const Choices<E, n>& choices, E otherwise) {
     const std::optional<Value> value = optional(key);
-    return value ? value->choice(choices) : otherwise;
+    if (value) return value->choice(choices);
+    if (Recording::current() != nullptr) {
+      std::array<std::string_view, n> names;
+      for (std::size_t i = 0; i < n; ++i) names[i] = choices[i].name;
+      Value(value_.json(), pointer_of(key)).note_words(names);
+      note_default(key, name_of(choices, otherwise));
+    }
+    return otherwise;
   }
   bool boolean(std::string_view key, bool otherwise);
 
@@ -149,6 +164,7 @@ public:
   void finish() const;
 
 private:
+  void note_default(std::string_view key, const nlohmann::json& otherwise) const;
   std::string pointer_of(std::string_view key) const;
   Value value_;
   std::set<std::string, std::less<>> known_;

@@ -13,7 +13,7 @@ foreach(file IN ITEMS
     share/bash-completion/completions/ridgeline share/zsh/site-functions/_ridgeline
     share/doc/ridgeline/README.md share/doc/ridgeline/CHANGELOG.md share/doc/ridgeline/docs/dds.md
     share/ridgeline/config/network.xml share/ridgeline/examples/valve_port.json
-    share/ridgeline/examples/controller/controller.c share/ridgeline/idl/ridgeline.idl)
+    share/ridgeline/examples/controller/controller.c share/ridgeline/idl/ridgeline.idl share/ridgeline/schema/ridgeline.schema.json)
   if(NOT EXISTS ${prefix}/${file})
     message(FATAL_ERROR "${file} is not installed")
   endif()
