@@ -1,7 +1,8 @@
 #include "clients/manual/syntax.hpp"
 
 #include <CLI/CLI.hpp>
-#include <regex>
+#include <optional>
+#include <sstream>
 
 namespace ridgeline::manual {
 namespace {
@@ -13,15 +14,22 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
+/// What stands between two marks, where both are there.
+std::optional<std::string> between(const std::string& text, const std::string& open,
+                                   const std::string& close) {
+  const std::size_t before = text.find(open);
+  if (before == std::string::npos) return std::nullopt;
+  const std::size_t begin = before + open.size(), end = text.find(close, begin);
+  if (end == std::string::npos) return std::nullopt;
+  return text.substr(begin, end - begin);
+}
+
 /// CLI11 puts name and checks of a value into one text: "TEXT:{json,nc}", "INT:INT in [0 - 100]".
 void read_type(const std::string& type, Argument& argument) {
-  static const std::regex choices(R"(\{([^}]*)\})");
-  static const std::regex range(R"(in \[(\S+) - (\S+)\])");
   argument.value = type.substr(0, type.find(':'));
-  std::smatch found;
-  if (std::regex_search(type, found, choices)) argument.choices = split(found[1], ',');
-  if (std::regex_search(type, found, range))
-    argument.range = found[1].str() + " to " + found[2].str();
+  if (const auto choices = between(type, "{", "}")) argument.choices = split(*choices, ',');
+  const auto low = between(type, "in [", " - "), high = between(type, " - ", "]");
+  if (low && high) argument.range = *low + " to " + *high;
 }
 
 Argument argument_of(const CLI::Option& option) {
