@@ -1,6 +1,7 @@
 #pragma once
 
 #include <BRepAdaptor_Curve.hxx>
+#include <BRepClass3d_SolidClassifier.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Solid.hxx>
 #include <memory>
@@ -19,6 +20,9 @@ struct Solid::Shape {
   TopTools_IndexedMapOfShape edges;
   TopTools_IndexedMapOfShape vertices;
   std::vector<BRepAdaptor_Curve> curves;  ///< of every edge, in its own direction
+  /// Prepared by the first question whether the solid contains a point, since preparing it costs as
+  /// much as many answers; one thread at a time.
+  mutable std::unique_ptr<BRepClass3d_SolidClassifier> classifier;
 };
 
 inline Eigen::Vector3d vector(const gp_Pnt& p) {

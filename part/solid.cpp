@@ -296,9 +296,10 @@ std::vector<Solid::Triangle> Solid::mesh(std::span<const int> faces, double defl
 }
 
 bool Solid::contains(const Eigen::Vector3d& point) const {
-  BRepClass3d_SolidClassifier classifier(shape_->solid, gp_Pnt(point.x(), point.y(), point.z()),
-                                         on_boundary);
-  return classifier.State() == TopAbs_IN;
+  if (!shape_->classifier)
+    shape_->classifier = std::make_unique<BRepClass3d_SolidClassifier>(shape_->solid);
+  shape_->classifier->Perform({point.x(), point.y(), point.z()}, on_boundary);
+  return shape_->classifier->State() == TopAbs_IN;
 }
 
 Eigen::Vector3d Solid::edge_point(int edge, double t) const {
