@@ -42,6 +42,9 @@ void add_status_command(CLI::App& app, Selected& selected);
 /// watch: the same, updated as they work.
 void add_watch_command(CLI::App& app, Selected& selected);
 
+/// serve: a page for the browser of this machine.
+void add_serve_command(CLI::App& app, Selected& selected);
+
 /// batch: many jobs, over all the instances there are.
 void add_batch_command(CLI::App& app, Selected& selected);
 

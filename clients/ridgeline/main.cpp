@@ -80,6 +80,7 @@ int run(int argc, char** argv) {
   add_units_commands(app, selected);
   add_status_command(app, selected);
   add_watch_command(app, selected);
+  add_serve_command(app, selected);
   manual::add_manual_option(app, {1, "\\fBridgelined\\fR(8), /usr/share/doc/ridgeline"});
   try {
     app.parse(argc, argv);
