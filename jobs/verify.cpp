@@ -93,6 +93,9 @@ std::vector<std::string> warnings(const ChamferJob& job, const nc::Reading& read
                   job.program.work_offset);
   if (reading.spindle_clockwise && *reading.spindle_clockwise != job.program.spindle_clockwise)
     all.emplace_back("the program turns the spindle against the tool's cutting sense");
+  if (reading.unmeasured_line)
+    all.push_back("the rapids from line " + std::to_string(*reading.unmeasured_line) +
+                  " on are not measured: another plane, offset or tool length than the cut's");
   if (report && report->rapid_clearance < job.job.clearance)
     all.push_back("rapids come within " + text(report->rapid_clearance) +
                   " mm of the part, the job asks for " + text(job.job.clearance) + " mm");

@@ -92,10 +92,7 @@ private:
     word.letter = upper_case(rest_[0]);
     rest_.remove_prefix(1);
     skip_blanks();
-    if (dialect_ == Dialect::Siemens && rest_.starts_with('=')) {
-      rest_.remove_prefix(1);
-      skip_blanks();
-    }
+    if (dialect_ == Dialect::Siemens) equals(word.letter);
     const std::optional<Nano> value = take_number(rest_);
     if (!value) {
       const std::string why = rest_.empty() ? "has no number" : reason(rest_[0]);
@@ -106,6 +103,16 @@ private:
     word.value = *value;
     word.text = all.substr(0, all.size() - rest_.size());
     block_.words.push_back(word);
+  }
+
+  /// X=5; of machine axes and spindles with their number, Z1=0, S1=500.
+  void equals(char letter) {
+    std::string_view after = rest_;
+    const bool has_number = std::string_view("XYZSM").find(letter) != std::string_view::npos;
+    while (has_number && !after.empty() && is_digit(after[0])) after.remove_prefix(1);
+    if (!after.starts_with('=')) return;
+    rest_ = after.substr(1);
+    skip_blanks();
   }
 
   std::string_view rest_;

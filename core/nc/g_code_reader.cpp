@@ -138,6 +138,8 @@ private:
       default: break;
     }
     if (dialect_ != Dialect::Siemens) return false;
+    if (code == 1530) return is_machine_ = true;
+    if (code == 740 || code == 750) return is_reference_ = true;
     if (code == 700 || code == 7000) is_inch_ = true;
     if (code == 710 || code == 7100) is_inch_ = false;
     return code == 700 || code == 7000 || code == 710 || code == 7100;
@@ -151,14 +153,14 @@ private:
         siemens_offset) {
       std::string name = "G" + std::to_string(code / 10);
       if (code % 10 != 0) name += "." + std::to_string(code % 10);
-      tracer_.set_work_offset(name, spot);
+      tracer_.set_work_offset(name);
       return true;
     }
     switch (code) {
       case 541: {
         const Word* p = block.use('P');
         if (p == nullptr) spot.bad("has no P");
-        tracer_.set_work_offset("G54.1 P" + std::to_string(whole(block, *p, 1, 300)), spot);
+        tracer_.set_work_offset("G54.1 P" + std::to_string(whole(block, *p, 1, 300)));
         return true;
       }
       case 430:
@@ -222,6 +224,8 @@ private:
     } else if (name.name == "CYCLE800") {
       const SwivelPlane plane = swivel_plane(name, spot);
       tracer_.set_plane(plane.axes, plane.origin);
+    } else if ((name.name == "ROT" || name.name == "TRANS") && block.words.empty()) {
+      tracer_.set_plane(std::nullopt, Eigen::Vector3d::Zero());
     } else if (name.name == "CR") {
       std::string_view text = name.arguments;
       radius_ = take_number(text);
@@ -248,7 +252,7 @@ private:
     if (Word* d = block.use('D')) {
       const int number = whole(block, *d, 0, 9999);
       if (dialect_ == Dialect::Siemens) {
-        if (chosen_tool_) tracer_.set_tool(*chosen_tool_, {block.spot.line, d->text});
+        if (chosen_tool_) tracer_.set_tool(*chosen_tool_);
         set_length(number == 0 ? std::nullopt : std::optional(number));
       }
     }
@@ -268,7 +272,7 @@ private:
       tracer_.reading().spindle_clockwise = code == 3;
     } else if (code == 6) {
       if (!chosen_tool_) spot.bad("no tool T is chosen");
-      tracer_.set_tool(*chosen_tool_, spot);
+      tracer_.set_tool(*chosen_tool_);
     } else if (code == 97 || code == 98) {
       spot.unsupported("subprograms are not read");
     } else if (!is_harmless_m(code)) {
@@ -278,6 +282,10 @@ private:
 
   void move(Block& block) {
     if (is_dwell_) return;
+    // Axes that turn: to a machine position, or on the way out.
+    for (const char rotary : {'A', 'B', 'C'}) {
+      if (is_machine_ || is_reference_ || tracer_.is_lost()) block.use(rotary);
+    }
     Tracer::Target to{};
     bool any = false;
     for (std::size_t n = 0; n < 3; ++n) {
@@ -319,7 +327,7 @@ private:
   /// By the point given to the reference point, which only the machine knows.
   void reference(Block& block, const Tracer::Target& to, bool any) {
     block.use('P');
-    tracer_.rapid(to, block.spot);
+    if (dialect_ != Dialect::Siemens) tracer_.rapid(to, block.spot);  // its values mean nothing
     for (std::size_t n = 0; n < 3; ++n) {
       if (!any || block.has(axis_letters[n])) tracer_.lose(n);
     }

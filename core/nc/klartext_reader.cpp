@@ -100,7 +100,7 @@ private:
       if (token.name.empty() && token.value && *token.value % nano == 0) {
         const int number = static_cast<int>(*token.value / nano);
         if (tracer_.reading().tool_number != number) {
-          tracer_.set_tool(number, spot);
+          tracer_.set_tool(number);
           tracer_.lose_all();
         }
       } else if (token.name == "S" && token.value) {
@@ -124,7 +124,7 @@ private:
     std::string_view value = at == words.npos ? "" : words.substr(at + 5);
     const std::optional<Nano> datum = take_number(value);
     if (!datum) spot_.bad("has no datum number Q339");
-    tracer_.set_work_offset(std::to_string(*datum / nano), spot_);
+    tracer_.set_work_offset(std::to_string(*datum / nano));
   }
 
   void plane_vector(std::string_view words) {
@@ -204,8 +204,8 @@ private:
       tracer_.reading().spindle_clockwise = code == 3;
     } else if (code == 91 || code == 92) {
       is_machine_ = true;
-    } else if (code == 128 || code == 129) {
-      tracer_.lose_all();
+    } else if (code == 128 || code == 129 || code == 140) {
+      tracer_.lose_all();  // M140: back along the tool
     } else if (!is_harmless_m(code)) {
       spot.bad("this M code is not read");
     }
@@ -249,7 +249,13 @@ private:
   }
 
   void line(const std::vector<Token>& tokens) {
-    const Tracer::Target to = target(tokens, [](const Token&) { return false; });
+    const bool goes_back = std::ranges::any_of(
+        tokens, [](const Token& token) { return token.name == "M" && token.value == 140 * nano; });
+    const Tracer::Target to = target(tokens, [&](const Token& token) {
+      const bool turns = token.name == "A" || token.name == "B" || token.name == "C";
+      return (turns && (is_machine_ || tracer_.is_lost())) ||
+             (goes_back && (token.name == "MB" || token.name == "MAX"));
+    });
     if (is_machine_) return;
     if (is_rapid_) return tracer_.rapid(to, spot_);
     if (to[0] || to[1] || to[2]) tracer_.feed(to, feed_ / 60, std::nullopt, spot_);

@@ -90,12 +90,7 @@ void Tracer::move_to(const Target& to, const Spot& spot) {
   }
 }
 
-void Tracer::begin(const Spot& spot) {
-  if (is_lost_) {
-    spot.unsupported(
-        "motion goes on after a machine position, another tool or another plane; one motion in one "
-        "frame is read");
-  }
+void Tracer::begin() {
   reading_.motion.start = position();
   has_start_ = true;
 }
@@ -105,18 +100,31 @@ void Tracer::record(const path::Move& move, const Spot& spot) {
   reading_.lines.push_back(spot.line);
 }
 
+// Where the tool is in the new frame is not known: the way out is not part of the motion.
+void Tracer::leave(const Target& to, const Spot& spot) {
+  move_to(to, spot);
+  const bool goes = to[0] || to[1] || to[2];
+  if (goes && !reading_.unmeasured_line) reading_.unmeasured_line = spot.line;
+}
+
 void Tracer::rapid(const Target& to, const Spot& spot) {
+  if (is_lost_) return leave(to, spot);
   const bool was_known = all_known();
   const Target from = at_;
   move_to(to, spot);
   if (!all_known() || at_ == from) return;
-  if (!was_known || !has_start_) return begin(spot);
+  if (!was_known || !has_start_) return begin();
   record({path::MoveKind::Rapid, position(), 0, std::nullopt}, spot);
 }
 
 void Tracer::feed(const Target& to, double mm_per_s, const std::optional<ArcTarget>& arc,
                   const Spot& spot) {
   if (!(mm_per_s > 0)) spot.bad("there is no feed F for it");
+  if (is_lost_) {
+    spot.unsupported(
+        "motion with a feed goes on after a machine position, another tool, offset or plane; one "
+        "motion in one frame is read");
+  }
   const bool was_known = all_known();
   const Target from = at_;
   if (!was_known) {
@@ -165,16 +173,16 @@ void Tracer::lose_all() {
   for (std::size_t n = 0; n < 3; ++n) lose(n);
 }
 
-void Tracer::set_work_offset(const std::string& name, const Spot& spot) {
+void Tracer::set_work_offset(const std::string& name) {
   if (name == reading_.work_offset) return;
-  if (has_cut_) spot.unsupported("a second work offset in one motion");
+  if (has_cut_) return lose_all();
   if (!reading_.work_offset.empty()) lose_all();
   reading_.work_offset = name;
 }
 
-void Tracer::set_tool(int number, const Spot& spot) {
+void Tracer::set_tool(int number) {
   if (reading_.tool_number == number) return;
-  if (has_cut_) spot.unsupported("a second tool in one motion");
+  if (has_cut_) return lose_all();
   reading_.tool_number = number;
 }
 
@@ -186,9 +194,10 @@ void Tracer::set_length_offset(std::optional<int> number, std::optional<std::siz
 }
 
 void Tracer::set_plane(const std::optional<Eigen::Matrix3d>& axes, const Eigen::Vector3d& origin) {
+  lose_all();
+  if (has_cut_) return;  // the way out: of no plane that is read
   axes_ = axes.value_or(Eigen::Matrix3d::Identity());
   origin_ = origin;
-  lose_all();
   if (axes) reading_.tool_axis = axes->col(2);
 }
 

@@ -56,8 +56,11 @@ public:
   void lose(std::size_t axis);
   void lose_all();
 
-  void set_work_offset(const std::string& name, const Spot& spot);
-  void set_tool(int number, const Spot& spot);
+  /// Something went out of sight after cutting: only rapids may follow.
+  bool is_lost() const { return is_lost_; }
+
+  void set_work_offset(const std::string& name);
+  void set_tool(int number);
   /// Another length shifts the coordinate of `axis`, or of all when the control follows the tool.
   void set_length_offset(std::optional<int> number, std::optional<std::size_t> axis);
   /// nullopt: the plane of the machine.
@@ -72,7 +75,8 @@ private:
   Eigen::Vector3d position() const;
   void move_to(const Target& to, const Spot& spot);
   void record(const path::Move& move, const Spot& spot);
-  void begin(const Spot& spot);
+  void begin();
+  void leave(const Target& to, const Spot& spot);
 
   Reading reading_;
   Target at_{};
