@@ -10,6 +10,7 @@
 #include "core/chamfer/job.hpp"
 #include "core/chamfer/loop.hpp"
 #include "core/chamfer/motion.hpp"
+#include "core/chamfer/neighbours.hpp"
 #include "core/chamfer/route.hpp"
 
 namespace ridgeline::chamfer {
@@ -253,6 +254,8 @@ Result Solver::run() {
     loops_.push_back(loops_.back());
   }
   borders_ = borders_of(edge_, chamfer(job_.width));
+  const std::vector<Neighbour> near = neighbours(job_, borders_, job_.width);
+  require_clear(near, job_.width);
   progress_.at(0.8, "motion");
 
   const geometry::Solid solid(job_.workpiece);
@@ -269,6 +272,7 @@ Result Solver::run() {
     fill(route, std::move(found));
     if (best > 0) break;
   }
+  for (const Neighbour& neighbour : near) result_.warnings.push_back(warning(neighbour));
   return std::move(result_);
 }
 
