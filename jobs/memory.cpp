@@ -10,7 +10,7 @@ namespace ridgeline::jobs {
 
 void keep_freed_memory() {
 #ifdef __GLIBC__
-  constexpr int kept = 16 << 20, largest = 4 << 20;  // bytes
+  constexpr int kept = 32 << 20, largest = 32 << 20;  // bytes
   mallopt(M_TRIM_THRESHOLD, kept);
   mallopt(M_MMAP_THRESHOLD, largest);
 #endif

@@ -203,7 +203,7 @@ void instances() {
   for (const std::size_t count : {1U, 2U, 3U, 4U}) {
     network.add();
     while (client->status(2s).size() < count) std::this_thread::sleep_for(50ms);
-    const Load measured = load(16, 200, [&] { require_ok(client->ask(job(2'000), "json")); });
+    const Load measured = load(16, 60, [&] { require_ok(client->ask(job(500), "json")); });
     table.row(static_cast<double>(count), 1 / measured.rate,
               fmt::format("{:.4f} | {:.0f}", 1 / measured.rate, measured.rate));
   }
