@@ -95,6 +95,17 @@ for (const b of macro)
 googleBenchmark('Machining error', 'cutting/cutting_bench', {ratio: 'iteration / rigid method over a path; limit 1.2'});
 googleBenchmark('Units', 'units/units_bench', {ratio: "reading a part / Open CASCADE's load; limit 1.3"});
 
+// ---- start of the command
+const starts = ['--help', 'chamfer clients/examples/inline.json --local --quiet'].map((arguments_) => {
+  const command = `${build}/clients/ridgeline/ridgeline ${arguments_}`;
+  const runs = 30;
+  const {stderr} = spawnSync('bash', ['-c', `TIMEFORMAT='%3U %3S'; time for ((i = 0; i < ${runs}; ++i)); do ${command} >/dev/null; done`],
+    {encoding: 'utf8'});
+  const [user, system] = stderr.trim().split(/\s+/).slice(-2).map(Number);
+  return `| \`ridgeline ${arguments_}\` | ${rounded(1e3 * (user + system) / runs)} ms |`;
+});
+section('Start of the command', "time for i in {1..30}; do ...; done", ['| command | processor time, mean of 30 |', '|---|---|', ...starts].join('\n'));
+
 // ---- service
 const service = run(bench('service/bench_service'), ['3000'], [0, 1]);
 for (const [, what, value] of service.matchAll(/^(\(job - the job in-process\) \/ empty): p50 ([\d.]+)/gm)) ratios.push([`${what}; limit 1.5`, value, bench('service/bench_service')]);

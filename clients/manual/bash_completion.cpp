@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "clients/manual/manual.hpp"
@@ -12,9 +15,13 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-void add_words(const std::vector<Argument>& options, std::string& words) {
+void add_names(const std::vector<Argument>& options, std::vector<std::string>& names) {
   for (const Argument& option : options)
-    for (const std::string& name : option.names) words += (words.empty() ? "" : " ") + name;
+    names.insert(names.end(), option.names.begin(), option.names.end());
+}
+
+std::string words(const std::vector<std::string>& list) {
+  return "_ridgeline_words " + quoted(fmt::format("{}", fmt::join(list, " ")));
 }
 
 /// All commands, the program itself first.
@@ -31,11 +38,7 @@ std::string path_of(const Syntax& command, const Syntax& program) {
 
 /// `compgen` for the value of an argument; empty where it can be anything.
 std::string words_for(const Argument& argument) {
-  if (!argument.choices.empty()) {
-    std::string words;
-    for (const std::string& choice : argument.choices) words += (words.empty() ? "" : " ") + choice;
-    return "_ridgeline_words " + quoted(words);
-  }
+  if (!argument.choices.empty()) return words(argument.choices);
   if (is_folder(argument)) return "_ridgeline_files -d";
   if (is_file(argument)) return "_ridgeline_files -f";
   return "COMPREPLY=()";
@@ -50,9 +53,7 @@ std::string with_value(const std::vector<const Syntax*>& commands) {
         names.insert(names.end(), option.names.begin(), option.names.end());
   std::ranges::sort(names);
   names.erase(std::unique(names.begin(), names.end()), names.end());
-  std::string pattern;
-  for (const std::string& name : names) pattern += (pattern.empty() ? "" : "|") + name;
-  return pattern;
+  return fmt::format("{}", fmt::join(names, "|"));
 }
 
 std::string value_cases(const std::vector<const Syntax*>& commands, const Syntax& program) {
@@ -61,11 +62,10 @@ std::string value_cases(const std::vector<const Syntax*>& commands, const Syntax
     for (const Argument& option : command->options) {
       if (option.value.empty()) continue;
       const std::string path = path_of(*command, program);
-      std::string pattern;
+      std::vector<std::string> patterns;
       for (const std::string& name : option.names)
-        pattern += (pattern.empty() ? "" : "|") +
-                   (path.empty() ? "*" + quoted(" " + name) : quoted(path + " " + name));
-      cases += "    " + pattern + ") " + words_for(option) + "; return ;;\n";
+        patterns.push_back(path.empty() ? "*" + quoted(" " + name) : quoted(path + " " + name));
+      cases += fmt::format("    {}) {}; return ;;\n", fmt::join(patterns, "|"), words_for(option));
     }
   return cases;
 }
@@ -82,17 +82,14 @@ std::string positional_case(const std::vector<Argument>& positionals) {
 std::string word_cases(const std::vector<const Syntax*>& commands, const Syntax& program) {
   std::string cases;
   for (const Syntax* command : commands) {
-    std::string options;
-    add_words(command->options, options);
-    if (command != &program) add_words(program.options, options);
-    std::string names;
+    std::vector<std::string> options, names;
+    add_names(command->options, options);
+    if (command != &program) add_names(program.options, options);
     for (const Syntax& each : command->commands)
-      names += (names.empty() ? "" : " ") + each.name.substr(each.name.rfind(' ') + 1);
-    const std::string other =
-        names.empty() ? positional_case(command->positionals) : "_ridgeline_words " + quoted(names);
+      names.push_back(each.name.substr(each.name.rfind(' ') + 1));
+    const std::string other = names.empty() ? positional_case(command->positionals) : words(names);
     cases += "    " + quoted(path_of(*command, program)) + ")\n      case $word in\n        -*) " +
-             "_ridgeline_words " + quoted(options) + " ;;\n        *) " + other +
-             " ;;\n      esac ;;\n";
+             words(options) + " ;;\n        *) " + other + " ;;\n      esac ;;\n";
   }
   return cases;
 }
@@ -102,10 +99,10 @@ std::string word_cases(const std::vector<const Syntax*>& commands, const Syntax&
 std::string bash_completion(const Syntax& program) {
   std::vector<const Syntax*> commands;
   collect(program, commands);
-  std::string known;
+  std::vector<std::string> paths;
   for (const Syntax* command : commands)
-    if (command != &program)
-      known += (known.empty() ? "" : "|") + quoted(path_of(*command, program));
+    if (command != &program) paths.push_back(quoted(path_of(*command, program)));
+  const std::string known = fmt::format("{}", fmt::join(paths, "|"));
   const std::string follow =
       known.empty()
           ? std::string()

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <sstream>
 
@@ -36,25 +39,19 @@ std::string one_line(std::string text) {
   return text;
 }
 
-template <class Texts>
-std::string joined(const Texts& texts, const std::string& separator) {
-  std::string result;
-  for (const std::string& text : texts) result += (result.empty() ? "" : separator) + text;
-  return result;
-}
-
 std::string value_of(const Argument& argument) {
   std::vector<std::string> choices;
   for (const std::string& choice : argument.choices) choices.push_back(bold(choice));
-  return choices.empty() ? slanted(argument.value) : joined(choices, "|");
+  return choices.empty() ? slanted(argument.value) : fmt::format("{}", fmt::join(choices, "|"));
 }
 
 /// "-o, --output FILE" and what it means, as one tagged paragraph.
 std::string paragraph(const Argument& argument) {
   const bool is_positional = !argument.names.front().starts_with('-');
-  std::string tag;
+  std::vector<std::string> names;
   for (const std::string& name : argument.names)
-    tag += (tag.empty() ? "" : ", ") + (is_positional ? slanted(name) : bold(name));
+    names.push_back(is_positional ? slanted(name) : bold(name));
+  std::string tag = fmt::format("{}", fmt::join(names, ", "));
   if (!argument.value.empty() && (!is_positional || !argument.choices.empty()))
     tag += (is_positional ? ": " : " ") + value_of(argument);
   std::string text = escaped(one_line(argument.description));
@@ -62,7 +59,7 @@ std::string paragraph(const Argument& argument) {
   if (argument.is_required && !is_positional) notes.push_back("required");
   if (!argument.range.empty()) notes.push_back(escaped(argument.range));
   if (!argument.otherwise.empty()) notes.push_back("default " + escaped(argument.otherwise));
-  if (!notes.empty()) text += " (" + joined(notes, "; ") + ")";
+  if (!notes.empty()) text += " (" + fmt::format("{}", fmt::join(notes, "; ")) + ")";
   return ".TP\n" + tag + "\n" + text + "\n";
 }
 

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "clients/manual/manual.hpp"
@@ -22,28 +25,24 @@ std::string escaped(const std::string& text) {
 }
 
 std::string action_of(const Argument& argument) {
-  if (!argument.choices.empty()) {
-    std::string words;
-    for (const std::string& choice : argument.choices) words += (words.empty() ? "" : " ") + choice;
-    return "(" + words + ")";
-  }
+  if (!argument.choices.empty()) return fmt::format("({})", fmt::join(argument.choices, " "));
   if (is_folder(argument)) return "_files -/";
   return is_file(argument) ? "_files" : " ";
 }
 
 /// '(-o --output)'{-o,--output}'[text]:FILE:_files'
 std::string specification(const Argument& option) {
-  std::string all, alternatives;
+  std::vector<std::string> alternatives;
   for (const std::string& name : option.names) {
-    all += (all.empty() ? "" : " ") + name;
     const bool takes_equals = !option.value.empty() && name.starts_with("--");
-    alternatives += (alternatives.empty() ? "" : ",") + name + (takes_equals ? "=" : "");
+    alternatives.push_back(name + (takes_equals ? "=" : ""));
   }
   std::string text = "[" + escaped(option.description) + "]";
   if (!option.value.empty()) text += ":" + escaped(option.value) + ":" + action_of(option);
-  const std::string head = option.is_repeatable ? "'*'" : "'(" + all + ")'";
-  return head + (option.names.size() > 1 ? "{" + alternatives + "}" : alternatives) + "'" + text +
-         "'";
+  const std::string head =
+      option.is_repeatable ? "'*'" : fmt::format("'({})'", fmt::join(option.names, " "));
+  const std::string names = fmt::format("{}", fmt::join(alternatives, ","));
+  return head + (alternatives.size() > 1 ? "{" + names + "}" : names) + "'" + text + "'";
 }
 
 std::string function_of(const Syntax& command) {

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
@@ -10,9 +9,9 @@
 #include <set>
 #include <thread>
 
-#include "clients/ridgeline/commands.hpp"
 #include "clients/ridgeline/files.hpp"
 #include "clients/ridgeline/progress_bar.hpp"
+#include "clients/ridgeline/subcommand.hpp"
 #include "jobs/parse.hpp"
 #include "jobs/refuse.hpp"
 #include "service/instance_status.hpp"
@@ -180,27 +179,25 @@ Outcome run(const Session& session, const Arguments& arguments) {
 }  // namespace
 
 void add_batch_command(CLI::App& app, Selected& selected) {
-  CLI::App* command =
-      app.add_subcommand("batch", "Compute many jobs at once, over all instances of the service");
   const auto arguments = std::make_shared<Arguments>();
-  command->add_option("JOBS", arguments->jobs, "Job files (JSON)")->required();
-  command->add_option("-o,--output", arguments->folder, "Folder for the results, one file a job")
+  CLI::App& command =
+      add_bare_subcommand(app, selected, arguments, "batch",
+                          "Compute many jobs at once, over all instances of the service", run);
+  command.add_option("JOBS", arguments->jobs, "Job files (JSON)")->required();
+  command.add_option("-o,--output", arguments->folder, "Folder for the results, one file a job")
       ->required()
       ->type_name("DIR");
-  command->add_option("--format", arguments->format, "What to write: json, nc, cl, csv or svg")
+  command.add_option("--format", arguments->format, "What to write: json, nc, cl, csv or svg")
       ->check(CLI::IsMember({"json", "nc", "cl", "csv", "svg"}))
       ->capture_default_str();
   command
-      ->add_option("--at-once", arguments->at_once, "Jobs under way at a time (default: workers)")
+      .add_option("--at-once", arguments->at_once, "Jobs under way at a time (default: workers)")
       ->check(CLI::Range(1, 1000));
-  command->add_flag("--again", arguments->is_again,
-                    "Compute also what an earlier run left in DIR from the same job file");
-  command->footer(
+  command.add_flag("--again", arguments->is_again,
+                   "Compute also what an earlier run left in DIR from the same job file");
+  command.footer(
       "Prints what became of each job; exit status 1 when any was refused. An interrupted batch, "
       "started\nagain, computes what is missing; after a change of the library use --again.");
-  command->callback([&selected, arguments] {
-    selected.run = [arguments](const Session& session) { return run(session, *arguments); };
-  });
 }
 
 }  // namespace ridgeline::command

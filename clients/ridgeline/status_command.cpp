@@ -1,10 +1,9 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "clients/client.hpp"
-#include "clients/ridgeline/commands.hpp"
+#include "clients/ridgeline/subcommand.hpp"
 
 namespace ridgeline::command {
 namespace {
@@ -45,16 +44,13 @@ Outcome run(const Session& session, const std::string& format) {
 }  // namespace
 
 void add_status_command(CLI::App& app, Selected& selected) {
-  CLI::App* command =
-      app.add_subcommand("status", "Instances of the service, their load and library");
   const auto format = std::make_shared<std::string>("json");
-  command->add_option("--format", *format, "What to print: json, or a table for people")
+  CLI::App& command = add_bare_subcommand(app, selected, format, "status",
+                                          "Instances of the service, their load and library", run);
+  command.add_option("--format", *format, "What to print: json, or a table for people")
       ->check(CLI::IsMember({"json", "table"}))
       ->capture_default_str();
-  command->footer("Exit status 3 when no instance answers.");
-  command->callback([&selected, format] {
-    selected.run = [format](const Session& session) { return run(session, *format); };
-  });
+  command.footer("Exit status 3 when no instance answers.");
 }
 
 }  // namespace ridgeline::command

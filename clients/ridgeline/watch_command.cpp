@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
@@ -11,7 +10,7 @@
 #include <memory>
 
 #include "clients/client.hpp"
-#include "clients/ridgeline/commands.hpp"
+#include "clients/ridgeline/subcommand.hpp"
 
 namespace ridgeline::command {
 namespace {
@@ -153,19 +152,17 @@ Outcome run(const Session& session, const Arguments& arguments) {
 }  // namespace
 
 void add_watch_command(CLI::App& app, Selected& selected) {
-  CLI::App* command = app.add_subcommand("watch", "Instances of the service, updated as they work");
   const auto arguments = std::make_shared<Arguments>();
-  command->add_flag("--once", arguments->is_once, "One line for each instance, and end");
-  command->add_option("--interval", arguments->interval, "Seconds from one look to the next")
+  CLI::App& command = add_bare_subcommand(app, selected, arguments, "watch",
+                                          "Instances of the service, updated as they work", run);
+  command.add_flag("--once", arguments->is_once, "One line for each instance, and end");
+  command.add_option("--interval", arguments->interval, "Seconds from one look to the next")
       ->check(CLI::Range(0.1, 3600.0))
       ->capture_default_str();
-  command->footer(
+  command.footer(
       "On a terminal a table that is drawn in place, elsewhere one line for each instance and "
       "look.\n"
       "Runs until it is interrupted; with --once exit status 3 when no instance answers.");
-  command->callback([&selected, arguments] {
-    selected.run = [arguments](const Session& session) { return run(session, *arguments); };
-  });
 }
 
 }  // namespace ridgeline::command

@@ -12,11 +12,11 @@ A command that stands elsewhere is an error, so that none is left out. PROGRAMS:
 import json
 import os
 import re
-import shutil
 import subprocess
 import sys
 
 from page import blocks, without_blocks
+from programs import empty_folder, environment_of
 
 COMMAND = re.compile(r"^(    )?(\$ )?(ridgelined?|cmake|ctest|cpack|docker|podman|buildah|systemctl|apt-get|scripts/[a-z-]+) ")
 
@@ -73,8 +73,7 @@ def script_of(root, page, text):
 def main(root, programs, work, page):
     with open(page, encoding="utf-8") as file:
         text = file.read()
-    shutil.rmtree(work, ignore_errors=True)
-    os.makedirs(work)
+    empty_folder(work)
     os.chdir(work)
     for name in ("clients", "docs", "scripts", "service", "docker", "tests"):
         os.symlink(os.path.join(root, name), name)
@@ -82,9 +81,7 @@ def main(root, programs, work, page):
     script, expected = script_of(root, page, text)
     if "== " not in script and not expected:
         return
-    environment = {k: v for k, v in os.environ.items() if not k.startswith(("RIDGELINE_", "CYCLONEDDS_"))}
-    environment.update(PATH=programs + ":" + os.environ["PATH"], HOME=work, XDG_DATA_HOME=work,
-                       RIDGELINE_DOMAIN=str(1 + os.getpid() % 99), DDS_TAG=f"ridgeline-docs-{os.getpid()}")
+    environment = {**environment_of("docs"), "PATH": programs + ":" + os.environ["PATH"], "HOME": work, "XDG_DATA_HOME": work}
     ran = subprocess.run(["bash", "-c", script], env=environment, stdin=subprocess.DEVNULL,
                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=240, check=False)
     if ran.returncode != 0:

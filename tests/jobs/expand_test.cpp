@@ -5,6 +5,7 @@
 #include "core/nc/reader.hpp"
 #include "jobs/answer.hpp"
 #include "tests/jobs/refusal_of.hpp"
+#include "tests/support/named_tube.hpp"
 
 namespace ridgeline::jobs {
 namespace {
@@ -23,15 +24,10 @@ public:
 
 private:
   static Json tube(const char* name) {
-    return {{"kind", "workpiece"},
-            {"name", name},
-            {"shape", "thick_walled_cylinder"},
-            {"inner_radius", 20},
-            {"outer_radius", 30},
-            {"length", 100},
-            {"holes",
-             {{{"name", "H1"}, {"shape", "circle"}, {"radius", 5}},
-              {{"name", "drain"}, {"shape", "circle"}, {"radius", 6}, {"position", {0, 30, 0}}}}}};
+    Json result = named_tube(name);
+    result["holes"].push_back(
+        {{"name", "drain"}, {"shape", "circle"}, {"radius", 6}, {"position", {0, 30, 0}}});
+    return result;
   }
   std::map<std::string, Json> all_ = {
       {"workpiece/1", tube("1")},

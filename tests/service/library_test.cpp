@@ -10,6 +10,7 @@
 #include <fstream>
 #include <thread>
 
+#include "tests/support/named_tube.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace ridgeline::service {
@@ -20,16 +21,6 @@ using Json = nlohmann::json;
 Json ball(const std::string& name, int number, double radius) {
   return {
       {"kind", "tool"}, {"name", name}, {"number", number}, {"shape", "ball"}, {"radius", radius}};
-}
-
-Json tube(const std::string& name, double length = 100) {
-  return {{"kind", "workpiece"},
-          {"name", name},
-          {"shape", "thick_walled_cylinder"},
-          {"inner_radius", 20},
-          {"outer_radius", 30},
-          {"length", length},
-          {"holes", {{{"name", "H1"}, {"shape", "circle"}, {"radius", 5}}}}};
 }
 
 template <class F>
@@ -70,8 +61,8 @@ TEST(Library, FindsAToolByNumberAndByName) {
 
 TEST(Library, PuttingTheSameAgainIsNoRevision) {
   Library library(":memory:");
-  library.put(tube("t"));
-  const Receipt again = library.put(tube("t"));
+  library.put(named_tube("t"));
+  const Receipt again = library.put(named_tube("t"));
   EXPECT_EQ(again.revision, 1);
   EXPECT_FALSE(again.is_new);
   EXPECT_EQ(library.history("workpiece", "t").size(), 1u);
@@ -100,10 +91,10 @@ TEST(Library, RefusesANumberThatAnotherToolHas) {
 
 TEST(Library, RefusesAnInvalidDefinitionAndStoresNothing) {
   Library library(":memory:");
-  Json bad = tube("t");
+  Json bad = named_tube("t");
   bad["outer_radius"] = -1;
   EXPECT_EQ(error_of([&] { library.put(bad); }).details().field, "/outer_radius");
-  const std::vector<Json> three = {tube("a"), bad, tube("c")};
+  const std::vector<Json> three = {named_tube("a"), bad, named_tube("c")};
   EXPECT_EQ(error_of([&] { library.put_all(three); }).details().field,
             "/definitions/1/outer_radius");
   EXPECT_TRUE(library.list().empty());
@@ -111,9 +102,10 @@ TEST(Library, RefusesAnInvalidDefinitionAndStoresNothing) {
 
 TEST(Library, TheSameRequestTwiceChangesOnce) {
   Library library(":memory:");
-  library.put(tube("t", 100), "request-1");
-  library.put(tube("t", 110), "request-2");
-  const Receipt again = library.put(tube("t", 100), "request-1");  // repeated by the middleware
+  library.put(named_tube("t", 100), "request-1");
+  library.put(named_tube("t", 110), "request-2");
+  const Receipt again =
+      library.put(named_tube("t", 100), "request-1");  // repeated by the middleware
   EXPECT_EQ(again.revision, 1);
   EXPECT_EQ(library.find("workpiece", "t")->document.at("length"), 110);
   EXPECT_EQ(library.remove("workpiece", "t", "request-3").revision, 3);
@@ -124,7 +116,7 @@ TEST(Library, IsKeptInTheFile) {
   const TemporaryFolder folder;
   {
     Library library(folder / "deep/er/library.db");
-    library.put(tube("t"));
+    library.put(named_tube("t"));
   }
   Library library(folder / "deep/er/library.db");
   EXPECT_EQ(library.find("workpiece", "t")->revision, 1);
@@ -136,8 +128,8 @@ TEST(Library, TwoWritersOfOneFileLoseNothing) {
   const auto write = [&](int writer) {
     Library library(folder / "library.db");
     for (int i = 1; i <= 30; ++i) {
-      library.put(tube("shared", 100 + writer + i));
-      library.put(tube("own-" + std::to_string(writer), 100 + i));
+      library.put(named_tube("shared", 100 + writer + i));
+      library.put(named_tube("own-" + std::to_string(writer), 100 + i));
     }
   };
   Library(folder / "library.db").list();
@@ -162,7 +154,7 @@ TEST(Library, AnAcknowledgedPutSurvivesKill) {
     if (child == 0) {
       Library library(folder / "library.db");
       for (int i = 0;; ++i) {
-        const int revision = library.put(tube("t", 100 + round + i / 1000.0)).revision;
+        const int revision = library.put(named_tube("t", 100 + round + i / 1000.0)).revision;
         if (write(pipe_ends[1], &revision, sizeof revision) != sizeof revision) _exit(1);
       }
     }
@@ -203,7 +195,7 @@ TEST(Library, AFullDiskIsNamedAndWhatWasThereStays) {
     Library library(file);
     for (int i = 1; i < 10'000; ++i) {
       try {
-        library.put(tube("t", 100 + i));
+        library.put(named_tube("t", 100 + i));
       } catch (const Error& error) {
         const bool is_readable = library.find("workpiece", "t")->revision == i - 1;
         _exit(error.code() == ErrorCode::Storage && is_readable && i > 10 ? 0 : 3);
@@ -219,7 +211,7 @@ TEST(Library, AFullDiskIsNamedAndWhatWasThereStays) {
   EXPECT_EQ(library.damage(), "");
   const int revision = library.find("workpiece", "t")->revision;
   EXPECT_GE(revision, 10);
-  EXPECT_EQ(library.put(tube("t", 99)).revision, revision + 1);
+  EXPECT_EQ(library.put(named_tube("t", 99)).revision, revision + 1);
 }
 
 TEST(Library, ReportsAnotherFileByName) {
@@ -243,7 +235,7 @@ TEST(Library, ADamagedPageIsReportedAndTheRestIsRead) {
   {
     Library library(file);
     std::vector<Json> all;
-    for (int i = 0; i < count; ++i) all.push_back(tube("t" + std::to_string(i)));
+    for (int i = 0; i < count; ++i) all.push_back(named_tube("t" + std::to_string(i)));
     library.put_all(all);
   }
   const auto size = std::filesystem::file_size(file);
@@ -257,7 +249,7 @@ TEST(Library, ADamagedPageIsReportedAndTheRestIsRead) {
   const std::size_t readable = library.list().size();
   EXPECT_GT(readable, static_cast<std::size_t>(count) / 2);
   EXPECT_LT(readable, static_cast<std::size_t>(count));
-  EXPECT_EQ(error_of([&] { library.put(tube("new")); }).code(), ErrorCode::Storage);
+  EXPECT_EQ(error_of([&] { library.put(named_tube("new")); }).code(), ErrorCode::Storage);
   EXPECT_EQ(std::filesystem::file_size(file), size);
 }
 
@@ -266,8 +258,8 @@ TEST(Library, AFlippedByteIsNotTakenForADefinition) {
   const std::filesystem::path file = folder / "library.db";
   {
     Library library(file);
-    library.put(tube("good"));
-    library.put(tube("flipped", 123456));
+    library.put(named_tube("good"));
+    library.put(named_tube("flipped", 123456));
   }
   std::string bytes(std::filesystem::file_size(file), '\0');
   std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
@@ -292,10 +284,10 @@ std::vector<Change> all_changes(const Library& library) {
 
 TEST(LibraryMerge, BothOrdersGiveTheSameAndKeepTheLoser) {
   Library a(":memory:", "a"), b(":memory:", "b");
-  a.put(tube("t", 100));
+  a.put(named_tube("t", 100));
   b.merge(all_changes(a));
-  a.put(tube("t", 110));  // both make revision 2
-  b.put(tube("t", 120));
+  a.put(named_tube("t", 110));  // both make revision 2
+  b.put(named_tube("t", 120));
   b.remove("workpiece", "t");  // revision 3, at b alone
   const std::vector<Change> from_a = all_changes(a);
   const std::vector<Change> from_b = all_changes(b);
@@ -320,17 +312,17 @@ TEST(LibraryMerge, BothOrdersGiveTheSameAndKeepTheLoser) {
 
 TEST(LibraryMerge, ARepeatedRequestIsKnownWhereItsChangeArrived) {
   Library a(":memory:", "a"), b(":memory:", "b");
-  a.put(tube("t"), "request-1");
-  a.put(tube("t", 200), "request-2");
+  a.put(named_tube("t"), "request-1");
+  a.put(named_tube("t", 200), "request-2");
   b.merge(all_changes(a));
-  EXPECT_EQ(b.put(tube("t"), "request-1").revision, 1);
+  EXPECT_EQ(b.put(named_tube("t"), "request-1").revision, 1);
   EXPECT_EQ(b.find("workpiece", "t")->document.at("length"), 200);
 }
 
 TEST(LibraryMerge, HealsADamagedRecord) {
   const TemporaryFolder folder;
   Library good(":memory:");
-  good.put(tube("t"));
+  good.put(named_tube("t"));
   Library library(folder / "library.db");
   library.merge(all_changes(good));
   {

@@ -3,21 +3,15 @@
 import os
 import pty
 import re
-import shutil
 import signal
 import subprocess
 import sys
 
+from programs import check, empty_folder, environment_of
+
 ridgeline, ridgelined, work = sys.argv[1:]
-shutil.rmtree(work, ignore_errors=True)
-os.makedirs(work)
-environment = {k: v for k, v in os.environ.items() if not k.startswith(("RIDGELINE_", "CYCLONEDDS_"))}
-environment.update(RIDGELINE_DOMAIN=str(1 + os.getpid() % 99), DDS_TAG=f"ridgeline-watch-{os.getpid()}")
-
-
-def check(is_so, message):
-    if not is_so:
-        raise AssertionError(message)
+empty_folder(work)
+environment = environment_of("watch")
 
 
 def drawn_on_a_terminal():

@@ -16,6 +16,7 @@
 #include "tests/bench/service/bare.hpp"
 #include "tests/bench/service/load.hpp"
 #include "tests/loopback/network.hpp"
+#include "tests/support/named_tube.hpp"
 
 namespace {
 
@@ -42,9 +43,7 @@ class Bench : public Loopback {
 public:
   Bench() {
     service::Library library(folder_ / "north.db");
-    library.put(nlohmann::json::parse(R"({"kind": "workpiece", "name": "tube-40",
-      "shape": "thick_walled_cylinder", "inner_radius": 20, "outer_radius": 30, "length": 100,
-      "holes": [{"name": "H1", "shape": "circle", "radius": 5}]})"));
+    library.put(named_tube("tube-40"));
     library.put(nlohmann::json::parse(
         R"({"kind": "tool", "number": 12, "name": "b6", "shape": "ball", "radius": 3})"));
     service_ = start("north", {"--log-level", "warning"});

@@ -19,6 +19,7 @@
 #include "service/library.hpp"
 #include "tests/bench/service/load.hpp"
 #include "tests/loopback/network.hpp"
+#include "tests/support/named_tube.hpp"
 
 namespace {
 
@@ -83,18 +84,8 @@ private:
   double size_ = 0, figure_ = 0;
 };
 
-Json tube(const std::string& name) {
-  return {{"kind", "workpiece"},
-          {"name", name},
-          {"shape", "thick_walled_cylinder"},
-          {"inner_radius", 20},
-          {"outer_radius", 30},
-          {"length", 100},
-          {"holes", {{{"name", "H1"}, {"shape", "circle"}, {"radius", 5}}}}};
-}
-
 std::string job(int points) {
-  Json workpiece = tube("tube-40");
+  Json workpiece = named_tube("tube-40");
   workpiece.erase("kind");
   const Json tool = {{"number", 12}, {"shape", "ball"}, {"radius", 3}};
   return Json{{"job", "chamfer"}, {"workpiece", workpiece}, {"hole", "H1"},
@@ -134,7 +125,7 @@ void library() {
       service::Library all(folder / "all.db");
       std::vector<Json> batch;
       for (int i = 0; i < count; ++i) {
-        batch.push_back(tube("tube-" + std::to_string(i)));
+        batch.push_back(named_tube("tube-" + std::to_string(i)));
         if (batch.size() < 1'000 && i + 1 < count) continue;
         all.put_all(batch);
         batch.clear();
@@ -152,7 +143,7 @@ void library() {
             throw std::runtime_error("a definition is lost");
       });
       const double putting = seconds([&] {
-        for (int i = 0; i < puts; ++i) all->put(tube("more-" + std::to_string(i)));
+        for (int i = 0; i < puts; ++i) all->put(named_tube("more-" + std::to_string(i)));
       });
       return Figures{finding / finds, putting / puts, opening};
     });
