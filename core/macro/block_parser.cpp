@@ -302,7 +302,7 @@ void BlockParser::classify(Block& block, const Word& word) const {
     raise(AlarmNumber::GAsArgument, numbered("G", static_cast<int>(word.number)), word.column);
   }
   if (word.number == 65) block.kind = BlockKind::Call;
-  if (word.number == 66) block.kind = BlockKind::ModalCall;
+  if (word.number == 66 || word.number == 66.1) block.kind = BlockKind::ModalCall;
 }
 
 Word BlockParser::word() {

@@ -8,36 +8,6 @@
 
 namespace ridgeline::macro {
 
-namespace {
-
-// Variable of an argument letter in argument list I (design section 2.4); 0: no argument.
-constexpr std::array<int, 26> argument_variables = {
-    1, 2, 3, 7, 8, 9, 0, 11, 4, 5, 6, 0, 13, 0, 0, 0, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26};
-
-// Addresses that count without increments also when written without a point.
-constexpr bool counts(char letter) {
-  return letter == 'D' || letter == 'E' || letter == 'F' || letter == 'H' || letter == 'M' ||
-         letter == 'S' || letter == 'T';
-}
-
-// Argument list II: I, J, K that repeat or go back in order open the next of ten sets.
-class ArgumentSets {
-public:
-  int variable(char letter, int column) {
-    const int place = letter - 'I';
-    if (place <= last_) ++set_;
-    last_ = place;
-    if (set_ >= 10) raise(AlarmNumber::MacroFormat, "more than ten sets of I J K", column);
-    return 4 + 3 * set_ + place;
-  }
-
-private:
-  int set_ = 0;
-  int last_ = -1;
-};
-
-}  // namespace
-
 void Runner::load(std::string text) {
   for (Program& program : compile(std::move(text), options_.profile)) {
     programs_.push_back(std::move(program));
@@ -133,70 +103,6 @@ const Program& Runner::called_by(const Program& program, const Call& call) {
   return find(call.number, call.column);
 }
 
-Runner::Call Runner::read_call(const Program& program, const Block& block) {
-  return read_call(program, block, 'G', 65, 66);
-}
-
-// Words before the code (from low to high) act as in any block, those after it are arguments.
-Runner::Call Runner::read_call(const Program& program, const Block& block, char letter, double low,
-                               double high) {
-  Call call;
-  Arguments& arguments = call.arguments;
-  const double step = increment(state_);
-  arguments.scale = 1 / step;
-  ArgumentSets sets;
-  bool is_after = false;
-  call.column = block.column;
-  for (std::uint32_t i = 0; i < block.words; ++i) {
-    const Word& word = program.words[block.first_word + i];
-    const bool is_literal = (word.flags & Word::is_literal) != 0;
-    const Value value = is_literal ? Value(word.number) : evaluate(program, word.code, variables_);
-    if (!is_after) {
-      is_after = word.letter == letter && value.number >= low && value.number <= high;
-      if (!is_after && word.letter != 'G' && word.letter != 'M') {
-        raise(AlarmNumber::MacroFormat, "arguments come after the code that calls", word.column);
-      }
-      continue;
-    }
-    if (word.letter == '<') {
-      call.name = static_cast<int>(word.number);
-      call.column = word.column;
-      continue;
-    }
-    if (word.letter == 'P' || word.letter == 'L') {
-      if (value.vacant) continue;
-      const std::int64_t integer = rounded_integer(value.number, word.column);
-      if (word.letter == 'L') {
-        call.repeats = integer;
-      } else {
-        call.number = static_cast<int>(std::clamp<std::int64_t>(integer, -1, 999999999));
-        call.column = word.column;
-      }
-      continue;
-    }
-    if (word.letter == 'N' || word.letter == 'O') continue;
-    if (word.letter == 'G') {
-      raise(AlarmNumber::GAsArgument, "G after the code that calls", word.column);
-    }
-    if (word.letter == 'c' || word.letter == 'r') {
-      raise(AlarmNumber::MacroFormat, ",C and ,R are no arguments", word.column);
-    }
-    const bool is_set = word.letter >= 'I' && word.letter <= 'K';
-    const int variable = is_set ? sets.variable(word.letter, word.column)
-                                : argument_variables[static_cast<std::size_t>(word.letter - 'A')];
-    const auto v = static_cast<std::size_t>(variable);
-    arguments.values[v] = value;
-    arguments.undotted &= ~(std::uint64_t{1} << v);
-    const bool scales = is_literal && (word.flags & Word::has_point) == 0 &&
-                        !options_.profile.calculator_point && !counts(word.letter);
-    if (scales) {
-      arguments.values[v] = word.number * step;
-      arguments.undotted |= std::uint64_t{1} << v;
-    }
-  }
-  return call;
-}
-
 void Runner::call_macro(Frame& frame, const Block& block) {
   Call call = read_call(*frame.program, block);
   Frame called;
@@ -210,48 +116,79 @@ void Runner::call_macro(Frame& frame, const Block& block) {
 void Runner::call_modal(Frame& frame, const Block& block) {
   Call call = read_call(*frame.program, block);
   add_modal(called_by(*frame.program, call), call, block.column);
+  if (modal_calls_.back().is_each_block) {  // which calls in its own block too
+    call_modally(modal_calls_.back(), call.arguments, modal_calls_.size(), block.column);
+  }
 }
 
 void Runner::add_modal(const Program& program, const Call& call, int column) {
   if (modal_calls_.size() >= static_cast<std::size_t>(options_.profile.macro_levels)) {
     raise(AlarmNumber::TooManyMacroLevels, "G66", column);
   }
-  modal_calls_.push_back({&program, call.repeats, call.arguments});
-  state_.modal.modal_call = 660;
+  const bool is_each_block = call.code > 66 && call.code < 67;
+  modal_calls_.push_back({&program, call.repeats, call.arguments, is_each_block});
+  note_modal_call();
 }
 
-// The latest G66 that the frame may trigger; its own moves trigger only those before it.
+// #4012
+void Runner::note_modal_call() {
+  state_.modal.modal_call = modal_calls_.empty()                ? 670
+                            : modal_calls_.back().is_each_block ? 661
+                                                                : 660;
+}
+
+// How many of the modal calls the frame may trigger: the latest of them, whose own blocks trigger
+// only those before it.
+std::size_t Runner::modal_depth() const {
+  return std::min(modal_calls_.size(), frames_.back().modal_depth);
+}
+
 void Runner::after_move() {
-  const std::size_t depth = std::min(modal_calls_.size(), frames_.back().modal_depth);
-  if (depth == 0) return;
+  const std::size_t depth = modal_depth();
+  if (depth == 0 || modal_calls_[depth - 1].is_each_block) return;
   const ModalCall& call = modal_calls_[depth - 1];
+  call_modally(call, call.arguments, depth, 0);
+}
+
+void Runner::call_modally(const ModalCall& call, const Arguments& arguments, std::size_t depth,
+                          int column) {
   Frame called;
   called.kind = FrameKind::Modal;
   called.program = call.program;
   called.repeats = call.repeats;
-  called.arguments = call.arguments;
+  called.arguments = arguments;
   called.modal_depth = depth - 1;
-  push(std::move(called), 0);
+  push(std::move(called), column);
 }
 
-// M98 Ppppp Lr, M98 <NAME> Lr, or P(rrr)pppp when there is no program of the whole number. With Q
-// it begins at that sequence number; without P, in the program that calls.
+// G67 and what steers the program (M98, M99, its end) stay what they are under G66.1.
+bool Runner::is_each_block_call() const {
+  const std::size_t depth = modal_depth();
+  if (depth == 0 || !modal_calls_[depth - 1].is_each_block) return false;
+  const bool steers = words_.has_g(670) || words_.has_m(98) || words_.has_m(198) ||
+                      words_.has_m(99) || words_.has_m(2) || words_.has_m(30);
+  return !steers;
+}
+
+// M98 Ppppp Lr, M98 <NAME> Lr, or P(rrr)pppp when there is no program of the whole number. With Q,
+// on other makes H, it begins at that sequence number; without P, in the program that calls.
 void Runner::call_subprogram(const Program& program) {
   Frame called;
   called.kind = FrameKind::Subprogram;
+  const char start = words_.has('Q') ? 'Q' : 'H';
   if (words_.has('L')) called.repeats = rounded_integer(words_['L'], words_.column_of('L'));
   if (words_.name >= 0) {
     called.program = &find(program.names[static_cast<std::size_t>(words_.name)], block_->column);
   } else if (words_.has('P')) {
     called.program = &numbered_subprogram(called.repeats);
-  } else if (words_.has('Q')) {
+  } else if (words_.has(start)) {
     called.program = &program;
   } else {
     raise(AlarmNumber::NoProgramNumber, "M98", block_->column);
   }
-  if (words_.has('Q')) {
-    const int column = words_.column_of('Q');
-    const std::int64_t label = rounded_integer(words_['Q'], column);
+  if (words_.has(start)) {
+    const int column = words_.column_of(start);
+    const std::int64_t label = rounded_integer(words_[start], column);
     const bool is_possible = label >= 1 && label <= 99999999;
     called.first = is_possible ? goto_target(*called.program, static_cast<int>(label), -1) : -1;
     if (called.first < 0) raise(AlarmNumber::NumberNotFound, numbered("N", label), column);

@@ -73,7 +73,8 @@ BlockEffect NcExecutor::execute(const NcWords& words, int program, int line) {
                             : words.has_g(440) ? 440
                             : words.has_g(490) ? 490
                                                : 0;
-    if (length_code != 0 || (words.has('H') && state_.modal.length != 490)) {
+    const bool is_length = words.has('H') && !words.has_m(98);  // of M98 it is a sequence number
+    if (length_code != 0 || (is_length && state_.modal.length != 490)) {
       apply_length(state_.modal.length);
     }
     if (has_axis_word()) {
@@ -97,6 +98,11 @@ BlockEffect NcExecutor::execute(const NcWords& words, int program, int line) {
   effect.moved = moved_;
   functions_after_move(effect);
   return effect;
+}
+
+void NcExecutor::execute_modes(const NcWords& words) {
+  words_ = &words;
+  for (int i = 0; i < words.g_count; ++i) apply_modal(words.g[static_cast<std::size_t>(i)]);
 }
 
 void NcExecutor::finish() {

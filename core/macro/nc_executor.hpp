@@ -30,6 +30,8 @@ public:
         corner_break_(compensation_) {}
 
   BlockEffect execute(const NcWords& words, int program, int line);
+  /// Of a block whose words are arguments of G66.1, only the modal G codes.
+  void execute_modes(const NcWords& words);
   /// Brings out moves that still wait for the next one.
   void finish();
   int ended_modal_calls = 0;  ///< G67 of the last block

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -34,6 +35,9 @@ struct NcWords {
       if (g[static_cast<std::size_t>(i)] == tenths) return true;
     }
     return false;
+  }
+  bool has_m(int code) const {
+    return std::find(m.begin(), m.begin() + m_count, code) != m.begin() + m_count;
   }
 };
 

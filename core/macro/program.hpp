@@ -89,7 +89,7 @@ enum class BlockKind : std::uint8_t {
   End,     ///< `target` is the WHILE or DO
   Goto,
   Call,       ///< G65
-  ModalCall,  ///< G66
+  ModalCall,  ///< G66 G66.1
   Print,      ///< DPRNT
   Name,       ///< SETVN: `words` names from `first_word` on, for `variable` and those after it
   Ignored,    ///< POPEN, PCLOS, BPRNT

@@ -254,6 +254,10 @@ void Runner::name_variables(const Program& program, const Block& block) {
 void Runner::nc(Frame& frame, const Block& block) {
   const Program& program = *frame.program;
   read_words(program, block, variables_, words_);
+  if (!modal_calls_.empty() && is_each_block_call()) {
+    call_each_block(program, block);
+    return;
+  }
   const Program* subprogram = nullptr;
   if (may_call_by_code()) {
     if (macro_by_code(frame, block)) return;
@@ -264,7 +268,7 @@ void Runner::nc(Frame& frame, const Block& block) {
   for (int i = 0; i < executor_.ended_modal_calls && !modal_calls_.empty(); ++i) {
     modal_calls_.pop_back();
   }
-  if (modal_calls_.empty()) state_.modal.modal_call = 670;
+  if (executor_.ended_modal_calls > 0) note_modal_call();
   switch (effect.flow) {
     case BlockEffect::Flow::End: ended_ = true; break;
     case BlockEffect::Flow::Call: call_subprogram(program); break;

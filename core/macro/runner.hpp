@@ -33,6 +33,7 @@ private:
     int number = -1;  ///< P
     int name = -1;    ///< <NAME>
     int column = 0;   ///< of either, else of the block
+    double code = 0;  ///< G or M code that calls
   };
   enum class FrameKind { Main, Subprogram, Macro, Modal };
   struct Frame {
@@ -49,6 +50,7 @@ private:
     const Program* program = nullptr;
     std::int64_t repeats = 1;
     Arguments arguments;
+    bool is_each_block = false;  ///< G66.1: in place of every block, its words are the arguments
   };
   static constexpr std::size_t no_limit = static_cast<std::size_t>(-1);
 
@@ -85,12 +87,20 @@ private:
   void call_modal(Frame& frame, const Block& block);
   void add_modal(const Program& program, const Call& call, int column);
   void after_move();
+  void call_modally(const ModalCall& call, const Arguments& arguments, std::size_t depth,
+                    int column);
+  std::size_t modal_depth() const;
+  void note_modal_call();
+  bool is_each_block_call() const;
+  void call_each_block(const Program& program, const Block& block);
   void call_subprogram(const Program& program);
   const Program& numbered_subprogram(std::int64_t& repeats);
   void return_from(bool to_label);
   void restart_main();
   Call read_call(const Program& program, const Block& block);
   Call read_call(const Program& program, const Block& block, char letter, double low, double high);
+  Value word_value(const Program& program, const Word& word) const;
+  void take_argument(Arguments& arguments, const Word& word, Value value, int variable) const;
   void push(Frame frame, int column);
   int levels(bool macros) const;
 

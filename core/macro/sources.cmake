@@ -1,5 +1,5 @@
 set(SOURCES
-  alarm.cpp block_parser.cpp calls.cpp canned.cpp check.cpp code_calls.cpp compensation.cpp compile.cpp corner.cpp corner_break.cpp cycle.cpp
+  alarm.cpp block_parser.cpp call_arguments.cpp calls.cpp canned.cpp check.cpp code_calls.cpp compensation.cpp compile.cpp corner.cpp corner_break.cpp cycle.cpp
   cycle_cusp.cpp cycle_motion.cpp cycle_program.cpp cycle_section.cpp cycle_validate.cpp evaluate.cpp hole_edge.cpp
   expression_parser.cpp line_reader.cpp listing.cpp loops.cpp macro_text.cpp motion_builder.cpp names.cpp nc_executor.cpp nc_motion.cpp nc_setting.cpp nc_words.cpp outline_motion.cpp parameters.cpp profile.cpp program_arguments.cpp program_body.cpp program_outline.cpp program_passes.cpp
   recorder.cpp refuse.cpp runner.cpp state.cpp system_variables.cpp text.cpp value_types.cpp variables.cpp)

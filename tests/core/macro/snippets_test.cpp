@@ -77,6 +77,14 @@ INSTANTIATE_TEST_SUITE_P(
         Snippet{"a_part_of_the_same_program",
                 "O1\nM98Q50\n#100=#101+1\nM30\nN50#101=7\nM99",
                 {{100, 8}}},
+        Snippet{"from_a_sequence_number_by_h",
+                "O1\nG43H1Z5.\nM98P2H50L2\n#102=#5003\n#103=#4111\nM30\nO2\n#100=9\n"
+                "N50#101=#101+1\nM99",
+                {{101, 2}, {102, 5}, {103, 1}}},
+        Snippet{"a_part_of_the_same_program_by_h",
+                "O1\nM98H50\n#100=#101+1\nM30\nN50#101=7\nM99",
+                {{100, 8}}},
+        Snippet{"no_such_sequence_number_by_h", "O1\nM98P2H51\nM30\nO2\nM99", {}, 78, 2},
         Snippet{"no_such_sequence_number", "O1\nM98P2Q51\nM30\nO2\nM99", {}, 78, 2}),
     [](const auto& sample) { return sample.param.name; });
 
@@ -124,6 +132,51 @@ INSTANTIATE_TEST_SUITE_P(
         Snippet{"words_after_the_program_number", "O1G0X1.\n#100=#5001\nM30", {{100, 1}}},
         Snippet{"two_variables_in_a_row", "O1\n#1=100\n#101=##1\nM30", {}, 114, 3},
         Snippet{"letter_without_number", "O1\nG0X1.\nM117 \"HELLO\"\nM30", {}, 4, 3}),
+    [](const auto& sample) { return sample.param.name; });
+
+// G66.1: every block is G65 P_ with all its words, among them G, L, N and P, as arguments.
+INSTANTIATE_TEST_SUITE_P(
+    EachBlock, ShopSnippet,
+    testing::Values(
+        Snippet{
+            "words_are_arguments",
+            "O1\nG0X1.Y2.\nG66.1P9\n#501=#5001\nN5G91G1X10.F200M8L3P7\nG67\nG90\n#502=#5001\nM30\n"
+            "O9\n#100=#24\n#101=#10\n#102=#9\n#103=#13\n#104=#12\n#105=#16\n#106=#4114\nM99",
+            {{100, 10},
+             {101, 1},
+             {102, 200},
+             {103, 8},
+             {104, 3},
+             {105, 7},
+             {106, 5},
+             {501, 1},
+             {502, 1}}},
+        Snippet{"calls_in_its_own_block",
+                "O1\nG66.1P9A5.\nX1.\nX2.\nG67\nX3.\nM30\nO9\n#100=#100+1\n#101=#101+#1\nM99",
+                {{100, 3}, {101, 5}}},
+        Snippet{"modal_codes_act",
+                "O1\nG66.1P9\nG91G1\nG67\n#100=#4001+#4003\nM30\nO9\nM99",
+                {{100, 92}}},
+        Snippet{"repeats_of_every_block",
+                "O1\nG66.1P9L2\nX4.\nG67\nM30\nO9\nIF[#24EQ#0]GOTO9\n#100=#100+#24\nN9M99",
+                {{100, 8}}},
+        Snippet{"own_blocks_call_nothing",
+                "O1\nG66.1P9\nX4.\nG67\n#101=#5001\nM30\nO9\nG0X[#24+1]\n#100=#100+1\nM99",
+                {{100, 2}, {101, 5}}},
+        Snippet{"within_a_modal_call",
+                "O1\nG66P8\nG66.1P9\nX4.\nX5.\nG67G67\nM30\nO8\n#101=#101+1\nM99\n"
+                "O9\nG0X#24\n#100=#100+1\n#102=#4012\nM99",
+                {{100, 3}, {101, 2}, {102, 66.1}}},
+        Snippet{"macro_statements_and_calls_stay",
+                "O1\nG66.1P9\n#101=4\nM98P8\nG65P8A2.\nG67\n#103=#4012\nM30\nO9\n#100=#100+1\nM99\n"
+                "O8\n#102=#102+1\nM99",
+                {{100, 1}, {101, 4}, {102, 2}, {103, 67}}},
+        Snippet{
+            "increments_and_sets",
+            "O1\nG66.1P9\nX1500I1.J2.I3.\nG67\nM30\nO9\n#100=#24\n#101=#4\n#102=#5\n#103=#7\nM99",
+            {{100, 1.5}, {101, 1}, {102, 2}, {103, 3}}},
+        Snippet{"corner_words", "O1\nG66.1P9\nX1.,R2.\nM30\nO9\nM99", {}, 125, 3},
+        Snippet{"no_program", "O1\nG66.1P9\nX1.\nM30", {}, 78, 2}),
     [](const auto& sample) { return sample.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
