@@ -123,6 +123,7 @@ void NcExecutor::apply_g(int code, int column) {
 
 bool NcExecutor::apply_modal(int code) {
   Modal& modal = state_.modal;
+  if (code == 842 || code == 843) code = code == 842 ? 840 : 740;  // rigid tapping as 15i has it
   switch (code) {
     case 0:
     case 10:
@@ -211,7 +212,20 @@ void NcExecutor::select_units(int code) {
   function(code_text('G', code / 10));
 }
 
+// G54 P_ is G54.1 P_, unless another code of the block takes the P.
+bool NcExecutor::is_additional_offset() const {
+  if (!words_->has('P') || words_->m_count > 0 || state_.modal.canned != 800) return false;
+  for (int i = 0; i < words_->g_count; ++i) {
+    const int code = words_->g[static_cast<std::size_t>(i)];
+    if (takes_axis_words(code) || is_without_effect(code) || (code >= 730 && code <= 890)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 void NcExecutor::select_work_offset(int code) {
+  if (code == 540 && is_additional_offset()) code = 541;
   int index = code / 10 - 53;
   std::string word = code_text('G', code / 10);
   if (code == 541) {

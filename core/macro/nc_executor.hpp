@@ -43,6 +43,7 @@ private:
   bool apply_modal(int code);
   void set_motion(int code);
   void select_plane(int code);
+  bool is_additional_offset() const;
   void select_work_offset(int code);
   void select_units(int code);
   void apply_length(int code);

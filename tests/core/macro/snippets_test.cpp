@@ -130,6 +130,14 @@ INSTANTIATE_TEST_SUITE_P(
                 "O1\n#100=ATAN[1]/[-1]\n#101=ATAN[1,-1]\nM30",
                 {{100, 135}, {101, 135}}},
         Snippet{"words_after_the_program_number", "O1G0X1.\n#100=#5001\nM30", {{100, 1}}},
+        Snippet{
+            "additional_offset_by_g54",
+            "O1\n#14021=5.\nG54P2\n#100=#4130\n#101=#4014\n#102=#5001\nG55\nG54G4P3\n#103=#4014\n"
+            "G54M98P7\n#104=#4014\nM30\nO7\nM99",
+            {{100, 2}, {101, 54.1}, {102, -5}, {103, 54}, {104, 54}}},
+        Snippet{"rigid_tapping_codes",
+                "O1\nG84.2X1.Z-3.R2.F1.\n#100=#4009\nG84.3X2.\n#101=#4009\n#102=#5003\nG80\nM30",
+                {{100, 84}, {101, 74}, {102, 0}}},
         Snippet{"two_variables_in_a_row", "O1\n#1=100\n#101=##1\nM30", {}, 114, 3},
         Snippet{"letter_without_number", "O1\nG0X1.\nM117 \"HELLO\"\nM30", {}, 4, 3}),
     [](const auto& sample) { return sample.param.name; });
