@@ -18,7 +18,7 @@ struct Kind {
   std::span<const std::string_view> formats;
 };
 
-constexpr std::array<std::string_view, 4> predict_formats{"json", "csv", "svg", "nc"};
+constexpr std::array<std::string_view, 5> predict_formats{"json", "csv", "svg", "html", "nc"};
 constexpr std::array<std::string_view, 1> json_only{"json"};
 constexpr std::array<std::string_view, 5> units_formats{"json", "text", "svg", "html", "nc"};
 constexpr std::array<std::string_view, 7> chamfer_formats{"json", "nc",   "cl",   "csv",

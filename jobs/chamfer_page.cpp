@@ -183,33 +183,22 @@ Loop loop_of(const ChamferJob& job, const chamfer::Result& result, const path::M
   return loop;
 }
 
-struct Series {
-  const char* name;
-  const std::vector<double>& values;
-};
-
-Json chart(const char* title, const char* unit, const std::vector<Series>& series) {
-  Json document = {{"title", title}, {"unit", unit}, {"series", Json::array()}};
-  for (const Series& each : series)
-    document["series"].push_back({{"name", each.name}, {"values", page_values(each.values)}});
-  return document;
-}
-
 bool has_values(const std::vector<double>& values) {
   return std::ranges::any_of(values, [](double v) { return std::isfinite(v); });
 }
 
 Json charts_of(const Loop& loop) {
-  Json charts = Json::array();
-  charts.push_back(chart("Chamfer width", "mm",
-                         {{"measured on the program", loop.width}, {"computed", loop.computed}}));
-  charts.push_back(chart("Distance of the path from the ideal one", "mm", {{"error", loop.error}}));
+  std::vector<PageChart> charts = {
+      {"Chamfer width",
+       "mm",
+       {{"measured on the program", loop.width}, {"computed", loop.computed}}},
+      {"Distance of the path from the ideal one", "mm", {{"error", loop.error}}}};
   if (has_values(loop.neck))
-    charts.push_back(chart("Clearance of neck and shank", "mm", {{"clearance", loop.neck}}));
+    charts.push_back({"Clearance of neck and shank", "mm", {{"clearance", loop.neck}}});
   if (has_values(loop.holder))
-    charts.push_back(chart("Clearance of the holder", "mm", {{"clearance", loop.holder}}));
-  charts.push_back(chart("Feed of the control point", "mm/min", {{"feed", loop.feed}}));
-  return charts;
+    charts.push_back({"Clearance of the holder", "mm", {{"clearance", loop.holder}}});
+  charts.push_back({"Feed of the control point", "mm/min", {{"feed", loop.feed}}});
+  return document_of(charts);
 }
 
 Json report_rows(const Json& document) {
@@ -249,7 +238,7 @@ Json ends_of(const chamfer::Result& result) {
 }
 
 /// Where to look: the edge, from the open side of the cut through the hole.
-void add_view(const ChamferJob& job, const chamfer::Result& result, const verify::Subject& subject,
+void add_view(const ChamferJob& job, const chamfer::Result& result, const geometry::Edge& edge,
               Json& data) {
   Vector3d low = result.targets.front();
   Vector3d high = low;
@@ -258,7 +247,7 @@ void add_view(const ChamferJob& job, const chamfer::Result& result, const verify
     high = high.cwiseMax(P);
   }
   const Vector3d centre = (low + high) / 2;
-  const auto& axes = subject.edge.frame.axes;
+  const auto& axes = edge.frame.axes;
   const double side = job.job.side == geometry::Side::Entry ? 1 : -1;
   const Vector3d up = side * axes.col(2);
   const double height = job.job.edge == geometry::EdgeKind::Inner ? 0.45 : 1.2;
@@ -271,6 +260,20 @@ void add_view(const ChamferJob& job, const chamfer::Result& result, const verify
 
 }  // namespace
 
+Json chamfer_scene(const ChamferJob& job, const chamfer::Result& result,
+                   const verify::Subject& subject) {
+  // The hole of the job first: the cut-away view goes through it.
+  geometry::Workpiece part = job.job.workpiece;
+  std::ranges::stable_partition(
+      part.holes, [&](const geometry::Hole& hole) { return hole.name == job.job.hole; });
+  Json data = {{"part", page_part(part)},
+               {"ridge", page_points(thinned(result.targets))},
+               {"ends", ends_of(result)},
+               {"tool", page_tool(job.job.tool, result.tool_axis, subject.control_to_centre)}};
+  add_view(job, result, subject.edge, data);
+  return data;
+}
+
 std::string chamfer_page(const ChamferJob& job, const chamfer::Result& result,
                          const path::Motion& rounded, const verify::Subject& subject,
                          const Json& document) {
@@ -278,28 +281,18 @@ std::string chamfer_page(const ChamferJob& job, const chamfer::Result& result,
   const PageMotion motion = page_motion(rounded);
   const Loop loop = loop_of(job, result, rounded, subject, motion);
   const std::string workpiece = j.workpiece.name.empty() ? "the workpiece" : j.workpiece.name;
-  // The hole of the job first: the cut-away view goes through it.
-  geometry::Workpiece part = j.workpiece;
-  std::ranges::stable_partition(part.holes,
-                                [&](const geometry::Hole& hole) { return hole.name == j.hole; });
   Json data = {
       {"job", "chamfer"},
       {"title", fmt::format("Chamfer of hole {} in {}", j.hole, workpiece)},
       {"subtitle", fmt::format("{} edge, {} side, width {:.6g} mm, tolerance {:.6g} mm, {} method",
                                name(j.edge), name(j.side), j.width, j.tolerance, name(j.method))},
       {"motion", document_of(motion)},
-      {"part", page_part(part)},
-      {"ridge", page_points(thinned(result.targets))},
-      {"ends", ends_of(result)},
-      {"tool", page_tool(j.tool, result.tool_axis, subject.control_to_centre)},
       {"along",
-       {{"title", "along the ridge line from \xCF\x86 = 0 [mm]"},
-        {"values", page_values(loop.ridge)},
-        {"at", page_values(loop.travelled)}}},
+       page_axis("along the ridge line from \xCF\x86 = 0 [mm]", loop.ridge, loop.travelled)},
       {"charts", charts_of(loop)},
       {"report", report_rows(document)},
       {"warnings", document.at("warnings")}};
-  add_view(job, result, subject, data);
+  data.update(chamfer_scene(job, result, subject));
   return page(data);
 }
 

@@ -50,7 +50,8 @@ PageMotion motion_of(const macro::Result& result) {
   return drawn;
 }
 
-Json charts_of(const PageMotion& motion) {
+/// Feed and height along the path, with the axis that they share.
+void add_charts(const PageMotion& motion, Json& data) {
   std::vector<double> travelled, feed, height;
   double length = 0;
   Vector3d from = motion.start;
@@ -63,19 +64,11 @@ Json charts_of(const PageMotion& motion) {
     feed.push_back(motion.feeds[i]);
     height.push_back(from.z());
   }
-  Json charts = Json::array();
-  if (travelled.empty()) return charts;
-  const auto add = [&](const char* title, const char* unit, const char* name,
-                       const std::vector<double>& values) {
-    charts.push_back({{"title", title},
-                      {"unit", unit},
-                      {"x", {{"title", "along the path [mm]"}, {"values", page_values(travelled)}}},
-                      {"at", page_values(travelled)},
-                      {"series", {{{"name", name}, {"values", page_values(values)}}}}});
-  };
-  add("Feed (rapid: 0)", "mm/min", "feed", feed);
-  add("Height", "mm", "Z", height);
-  return charts;
+  data["charts"] = Json::array();
+  if (travelled.empty()) return;
+  data["along"] = page_axis("along the path [mm]", travelled, travelled);
+  data["charts"] = document_of(
+      {{"Feed (rapid: 0)", "mm/min", {{"feed", feed}}}, {"Height", "mm", {{"Z", height}}}});
 }
 
 Json report_rows(const Json& document) {
@@ -90,9 +83,12 @@ Json report_rows(const Json& document) {
 
 std::string macro_page(const macro::Result& result, std::string_view title, const Json& document) {
   const PageMotion motion = motion_of(result);
-  Json data = {{"job", document.at("job")},       {"title", title},
-               {"motion", document_of(motion)},   {"charts", charts_of(motion)},
-               {"report", report_rows(document)}, {"warnings", Json::array()}};
+  Json data = {{"job", document.at("job")},
+               {"title", title},
+               {"motion", document_of(motion)},
+               {"report", report_rows(document)},
+               {"warnings", Json::array()}};
+  add_charts(motion, data);
   if (document.contains("warnings")) data["warnings"] = document.at("warnings");
   if (document.contains("alarm"))
     data["warnings"].push_back("alarm " + document.at("alarm").at("number").dump() + ": " +

@@ -102,9 +102,11 @@ Json page_points(const std::vector<Vector3d>& points) {
 Json page_rows(const Json& document, std::initializer_list<PageRow> rows) {
   Json list = Json::array();
   for (const PageRow& row : rows) {
-    const auto value = document.find(row.key);
-    if (value == document.end()) continue;
-    list.push_back({{"key", row.key}, {"name", row.name}, {"value", *value}, {"unit", row.unit}});
+    const Json::json_pointer place("/" + std::string(row.key));
+    if (!document.contains(place)) continue;
+    const Json& value = document.at(place);
+    list.push_back({{"key", row.key}, {"name", row.name}, {"value", value}, {"unit", row.unit}});
+    if (value.is_null()) list.back()["missing"] = row.missing;
   }
   return list;
 }
@@ -114,6 +116,30 @@ Json page_values(const std::vector<double>& values) {
   bytes.reserve(8 * values.size());
   for (const double v : values) append(bytes, std::bit_cast<std::uint64_t>(v), 8);
   return {{"f64", base64(bytes)}};
+}
+
+Json document_of(const std::vector<PageChart>& charts) {
+  constexpr std::array<const char*, 3> styles{"curve", "guide", "dots"};
+  Json list = Json::array();
+  for (const PageChart& chart : charts) {
+    Json series = Json::array();
+    for (const PageSeries& each : chart.series)
+      series.push_back({{"name", each.name},
+                        {"style", styles.at(static_cast<std::size_t>(each.style))},
+                        {"values", page_values(each.values)}});
+    list.push_back({{"title", chart.title},
+                    {"unit", chart.unit},
+                    {"scale", chart.scale},
+                    {"series", std::move(series)}});
+  }
+  return list;
+}
+
+Json page_axis(const char* title, const std::vector<double>& values,
+               const std::vector<double>& at) {
+  Json axis = {{"title", title}, {"values", page_values(values)}};
+  if (!at.empty()) axis["at"] = page_values(at);
+  return axis;
 }
 
 PageMotion page_motion(const path::Motion& motion) {

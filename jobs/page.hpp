@@ -24,12 +24,32 @@ nlohmann::json page_values(const std::vector<double>& values);
 
 /// A number of a document that the page's table shows.
 struct PageRow {
-  const char* key;
+  const char* key;  ///< "report/width": a member of a member
   const char* name;
   const char* unit;
+  const char* missing = "not checked";  ///< what null means
 };
 /// The table's rows of those numbers that the document has; `null` stays null.
 nlohmann::json page_rows(const nlohmann::json& document, std::initializer_list<PageRow> rows);
+
+/// A curve of a chart: NaN is a gap.
+struct PageSeries {
+  const char* name;
+  std::vector<double> values;
+  enum class Style { Curve, Guide, Dots } style = Style::Curve;  ///< Guide: thin, dashed
+};
+/// A chart of values as they are in the result; the page shows them times `scale` in `unit`.
+struct PageChart {
+  const char* title;
+  const char* unit;
+  std::vector<PageSeries> series;
+  double scale = 1;
+};
+nlohmann::json document_of(const std::vector<PageChart>& charts);
+/// The coordinate that charts share. `at`: the length along the motion of the page at each value,
+/// or empty; the charts' cursor and the tool are one then.
+nlohmann::json page_axis(const char* title, const std::vector<double>& values,
+                         const std::vector<double>& at = {});
 
 /// A path as the page draws it: straight pieces, arcs within a tolerance that the screen does not
 /// show.

@@ -11,7 +11,7 @@ namespace {
   refuse({.code = ErrorCode::Unsupported,
           .field = "",
           .value = "nc",
-          .limit = "json, csv or svg",
+          .limit = "json, csv, svg or html",
           .message = why});
 }
 
@@ -40,7 +40,7 @@ Answer predict(const Request& request) {
     return predict_along(job, *along, request);
   if (request.format == "nc")
     refuse_program(
-        "one engagement has no program: ask for json, csv or svg, or predict along a path");
+        "one engagement has no program: ask for json, csv, svg or html, or predict along a path");
   if (job.has("depths")) return predict_lobes(job, request);
   if (job.has("speeds_rpm")) return predict_sweep(job, request);
   return predict_engagement(job, request);

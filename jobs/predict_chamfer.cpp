@@ -6,8 +6,10 @@
 #include "core/chamfer/job.hpp"
 #include "core/cutting/wedge.hpp"
 #include "jobs/chamfer_job.hpp"
+#include "jobs/chamfer_page.hpp"
 #include "jobs/check.hpp"
 #include "jobs/predict_motion.hpp"
+#include "jobs/predict_page.hpp"
 #include "jobs/predict_path.hpp"
 
 namespace ridgeline::jobs {
@@ -161,6 +163,7 @@ Answer predict_chamfer(Object& job, const Value& along, const Request& request) 
   read.course.tool_axis = path.result.tool_axis;
   PredictedPath predicted;
   predicted.kind = "chamfer";
+  predicted.is_closed = true;
   predicted.wanted_width = chamfer_job.job.width;
   predicted.parameter = path.result.parameter;
   predicted.stations = path.stations;
@@ -179,6 +182,10 @@ Answer predict_chamfer(Object& job, const Value& along, const Request& request) 
   Answer answer = path_answer(read, predicted);
   if (request.format == "csv") answer.text = path_csv(predicted);
   if (request.format == "svg") answer.text = path_drawing(read, predicted);
+  if (request.format == "html")
+    answer.text = path_page(
+        read, predicted, answer.document,
+        chamfer_scene(chamfer_job, path.result, subject_of(chamfer_job, path.result.tool_axis)));
   if (request.format == "nc") answer.text = nc::write(program.value());
   return answer;
 }

@@ -6,6 +6,7 @@
 
 #include "core/cutting/modal_fit.hpp"
 #include "jobs/predict_kinds.hpp"
+#include "jobs/predict_page.hpp"
 #include "jobs/svg.hpp"
 
 namespace ridgeline::jobs {
@@ -198,6 +199,8 @@ Answer predict_engagement(Object& job, const Request& request) {
   answer.document["stability"] = stability_document(read, warnings, request.progress);
   answer.document["solve_seconds"] = seconds;
   answer.document["warnings"] = warnings;
+  if (request.format == "html")
+    answer.text = engagement_page(predicted.prediction, read.engagement.cut.n, answer.document);
   answer.arrays.push_back(samples_array<3>("/F", predicted.prediction.F));
   answer.arrays.push_back(samples_array<2>("/D", predicted.prediction.D));
   return answer;

@@ -7,6 +7,7 @@
 #include "core/cutting/lobes.hpp"
 #include "jobs/in_parallel.hpp"
 #include "jobs/predict_kinds.hpp"
+#include "jobs/predict_page.hpp"
 #include "jobs/svg.hpp"
 
 namespace ridgeline::jobs {
@@ -109,6 +110,7 @@ Answer predict_lobes(Object& job, const Request& request) {
                      {"deepest_tried", depths.range.to},
                      {"engaging", name_of(engagings, engaging)},
                      {"warnings", Json::array()}};
+  if (request.format == "html") answer.text = lobes_page(speeds, limits, answer.document);
   answer.arrays.push_back({"/speed_rpm", {speeds.size()}, speeds});
   answer.arrays.push_back({"/depth_limit", {limits.size()}, limits});
   return answer;

@@ -2,6 +2,7 @@
 
 #include "jobs/in_parallel.hpp"
 #include "jobs/predict_kinds.hpp"
+#include "jobs/predict_page.hpp"
 #include "jobs/svg.hpp"
 
 namespace ridgeline::jobs {
@@ -98,6 +99,7 @@ Answer answer_of(const std::vector<double>& speeds, const std::vector<AtSpeed>& 
                      {"loops", loops},         {"converged", converged},
                      {"stability", stability}, {"method", methods},
                      {"warnings", warnings}};
+  if (format == "html") answer.text = sweep_page(answer.document);
   return answer;
 }
 

@@ -8,8 +8,9 @@
 #include "core/path/arc.hpp"
 #include "jobs/definitions.hpp"
 #include "jobs/limits.hpp"
+#include "jobs/page.hpp"
 #include "jobs/predict_case.hpp"
-#include "jobs/predict_path.hpp"
+#include "jobs/predict_page.hpp"
 #include "jobs/predict_work.hpp"
 
 namespace ridgeline::jobs {
@@ -175,6 +176,27 @@ std::vector<Station> stations_of(const std::vector<Place>& places) {
   return out;
 }
 
+std::vector<std::size_t> entries_of(const std::vector<Place>& places) {
+  std::vector<std::size_t> out;
+  std::size_t station = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!places[i].cuts) continue;
+    if (i == 0 || !places[i - 1].cuts) out.push_back(station);
+    ++station;
+  }
+  return out;
+}
+
+/// What the page shows beside the path: the stock as a box, the ball.
+nlohmann::json scene_of(const HeightMap& stock, const tool::Tool& tool, const Vector3d& to_centre) {
+  const auto [low, high] = std::ranges::minmax(stock.heights);
+  const Eigen::Vector2d far =
+      stock.origin + stock.cell * Eigen::Vector2d(stock.columns - 1, stock.rows - 1);
+  return {{"box",
+           {{"min", {stock.origin.x(), stock.origin.y(), low}}, {"max", {far.x(), far.y(), high}}}},
+          {"tool", page_tool(tool, Vector3d::UnitZ(), to_centre.z())}};
+}
+
 AlongResult run(AlongJob& job, const HeightMap& stock, const std::vector<Place>& places,
                 const Progress& progress) {
   const auto begin = std::chrono::steady_clock::now();
@@ -271,6 +293,7 @@ Answer predict_work(Object& job, Object& along, WorkPath work, const ResolvedToo
   PredictedPath path;
   path.kind = work.kind;
   path.stations = stations_of(places);
+  path.entries = entries_of(places);
   refuse_unless_cutting(path.stations);
   for (const Station& station : path.stations)
     path.position.emplace_back(station.centre - to_centre);
@@ -279,6 +302,8 @@ Answer predict_work(Object& job, Object& along, WorkPath work, const ResolvedToo
   Answer answer = path_answer(read, path);
   if (request.format == "csv") answer.text = path_csv(path);
   if (request.format == "svg") answer.text = path_drawing(read, path);
+  if (request.format == "html")
+    answer.text = path_page(read, path, answer.document, scene_of(stock, tool.tool, to_centre));
   if (request.format == "nc") {
     nc::Program program = work.program;
     program.motion = corrected_motion(work, places, path.result.after, to_centre);

@@ -7,6 +7,7 @@
 #include "jobs/units_drawing.hpp"
 #include "jobs/units_edit.hpp"
 #include "jobs/units_nc.hpp"
+#include "jobs/units_page.hpp"
 #include "jobs/units_product.hpp"
 #include "jobs/units_program.hpp"
 #include "jobs/units_shape.hpp"
@@ -161,7 +162,7 @@ Answer units_program(const Request& request) {
   Answer answer{.document = program_document(whole), .arrays = {}, .text = {}};
   if (request.format == "text") answer.text = units_text(whole.program);
   if (request.format == "svg") answer.text = units_svg(whole.program);
-  if (request.format == "html") answer.text = units_html(whole.program);
+  if (request.format == "html") answer.text = units_page(whole, answer.document);
   return answer;
 }
 

@@ -12,88 +12,26 @@
 #include "core/units/overlay.hpp"
 #include "jobs/svg.hpp"
 #include "jobs/text.hpp"
+#include "jobs/units_figure.hpp"
 #include "jobs/units_program.hpp"
 
 namespace ridgeline::jobs {
 namespace {
 
 using Eigen::Vector2d;
-using Eigen::Vector3d;
 using units::Program;
-using units::Segment;
 using units::Unit;
-using Loops = std::vector<std::vector<Vector2d>>;
 
 constexpr double width = 1180;
 constexpr double legend_width = 430;
 constexpr double line_height = 19;
-constexpr double chord_angle = 0.05;  // [rad]: of drawn arcs
 
-/// Hues a golden angle apart: neighbours in the program never look alike. One rule for a unit, as
-/// its colour stands in light and dark.
+/// One rule for a unit, as its colour stands in light and dark.
 std::string style_of(std::size_t i) {
-  const int hue = static_cast<int>(std::lround(std::fmod(static_cast<double>(i) * 137.508, 360)));
   return fmt::format(
       ".unit{0} {{ fill: hsl({1},65%,52%); fill-opacity: 0.6; stroke: hsl({1},65%,38%); "
       "stroke-width: 1; }}\n",
-      i + 1, hue);
-}
-
-void add_points(std::vector<Vector2d>& points, const Segment& row) {
-  points.emplace_back(row.start.z, row.start.r);
-  if (!row.arc) return;
-  const int n = std::clamp(
-      static_cast<int>(std::ceil(units::length(row) / row.arc->radius / chord_angle)), 1, 200);
-  for (int i = 1; i < n; ++i) {
-    const units::Point p = units::point_at(row, static_cast<double>(i) / n);
-    points.emplace_back(p.z, p.r);
-  }
-}
-
-Loops loops_of(const units::Region& region) {
-  Loops loops;
-  for (const units::Contour& contour : units::contours(region)) {
-    loops.emplace_back();
-    for (const Segment& row : contour) add_points(loops.back(), row);
-  }
-  return loops;
-}
-
-/// A band of half width w about the line from p along d, turned into the half section about p's
-/// polar angle.
-Loops band(const Vector3d& p, const Vector3d& d, double length, double w) {
-  const double r = std::hypot(p.x(), p.y());
-  const Vector2d at(p.z(), r);
-  const double outwards = r > 1e-9 ? (d.x() * p.x() + d.y() * p.y()) / r : 0;
-  Vector2d way(d.z(), outwards);
-  way = way.norm() > 1e-9 ? Vector2d(way.normalized()) : Vector2d(0, -1);
-  const Vector2d side = w * Vector2d(-way.y(), way.x());
-  const Vector2d end = at + length * way;
-  return {{at + side, end + side, end - side, at - side}};
-}
-
-Loops loops_of(const Unit& unit) {
-  if (unit.hole && units::is_empty(unit.region))
-    return band(unit.hole->start, unit.hole->direction, unit.hole->depth, unit.hole->diameter / 2);
-  if (unit.face) {
-    const Vector3d& n = unit.face->normal;
-    const double height = std::abs(n.dot(unit.face->point));
-    const double z0 = unit.face->z0;
-    const double z1 = unit.face->z1;
-    if (std::abs(n.z()) < 0.5)
-      return {{{z0, height},
-               {z1, height},
-               {z1, height + unit.face->depth},
-               {z0, height + unit.face->depth}}};
-    const double r = std::hypot(unit.face->point.x(), unit.face->point.y());
-    const double w = std::max(unit.face->width / 2, 0.5);
-    return band({r, 0, unit.face->point.z()}, n, unit.face->depth, w);
-  }
-  if (unit.remainder) {
-    const units::Remainder& rest = *unit.remainder;
-    return {{{rest.z0, rest.r0}, {rest.z1, rest.r0}, {rest.z1, rest.r1}, {rest.z0, rest.r1}}};
-  }
-  return loops_of(unit.region);
+      i + 1, hue_of_unit(i));
 }
 
 double height_of(const Program& program) {
@@ -147,24 +85,11 @@ std::string volume_line(const Program& program) {
       tidy(v.left), tidy(v.unexplained));
 }
 
+}  // namespace
+
 std::string title_of(const Program& program) {
   return program.product.name.empty() ? "Machining units" : program.product.name;
 }
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '&')
-      out += "&amp;";
-    else
-      out += c;
-  }
-  return out;
-}
-
-}  // namespace
 
 std::string units_svg(const Program& program) {
   const double height = height_of(program);
@@ -174,10 +99,10 @@ std::string units_svg(const Program& program) {
   for (std::size_t i = 0; i < program.units.size(); ++i) styles += style_of(i);
   svg.add_style(styles);
   svg.text({20, 24}, title_of(program) + ": half section, X up, Z to the right", "title");
-  svg.area(view, loops_of(program.stock), "outline");
-  svg.area(view, loops_of(program.product.shadow), "body");
+  svg.area(view, half_section(program.stock), "outline");
+  svg.area(view, half_section(program.product.shadow), "body");
   for (std::size_t i = 0; i < program.units.size(); ++i)
-    svg.area(view, loops_of(program.units[i]), fmt::format("unit{}", i + 1));
+    svg.area(view, half_section(program.units[i]), fmt::format("unit{}", i + 1));
   const units::Box s = units::box(program.stock);
   svg.polyline(view, {{view.model_min.x(), 0}, {view.model_max.x(), 0}}, "axis");
   draw_split(svg, view, program, program.split.outer, "outer split");
@@ -189,12 +114,6 @@ std::string units_svg(const Program& program) {
   draw_legend(svg, program);
   svg.text({20, height - 12}, volume_line(program), "small");
   return std::move(svg).finish();
-}
-
-std::string units_html(const Program& program) {
-  return "<!doctype html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>" +
-         escaped(title_of(program)) + "</title></head>\n<body>\n" + units_svg(program) +
-         "\n<pre>\n" + escaped(units_text(program)) + "</pre>\n</body>\n</html>\n";
 }
 
 std::string units_text(const Program& program) {

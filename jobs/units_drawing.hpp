@@ -6,12 +6,12 @@
 
 namespace ridgeline::jobs {
 
+/// Name of the product, or what a program is.
+std::string title_of(const units::Program& program);
+
 /// The half section of a program as SVG: stock, product, every unit in its colour, milled features
 /// where they are, and a legend.
 std::string units_svg(const units::Program& program);
-
-/// The same on a page, with the tree beside it.
-std::string units_html(const units::Program& program);
 
 /// The tree and the volumes for a terminal.
 std::string units_text(const units::Program& program);

@@ -152,7 +152,8 @@ void add_run(CLI::App& macro, Selected& selected) {
       ->capture_default_str();
   command.footer(
       "Formats: json (motion, variables, messages), nc (plain G code), csv (one line a move), svg\n"
-      "(drawing), trace (one line a block). Exit status 1 when the program stops with an alarm.\n"
+      "(drawing), html (viewer for a browser), trace (one line a block).\n"
+      "Exit status 1 when the program stops with an alarm.\n"
       "Example: ridgeline macro run O0001.nc --library-dir lib --set '#100=5' --format nc");
 }
 
@@ -185,7 +186,7 @@ void add_make(CLI::App& macro, Selected& selected) {
   command.footer(
       "Formats: json (points, motion, cusp), nc (parametric program as \"program\" of the file "
       "says),\n"
-      "csv (one line a move), svg (drawing).");
+      "csv (one line a move), svg (drawing), html (viewer for a browser).");
 }
 
 }  // namespace

@@ -45,14 +45,14 @@ void add_predict_command(CLI::App& app, Selected& selected) {
                   "Job file (JSON): a prediction, or the job of a path; - for standard input")
       ->required();
   command.add_option("--format", arguments->format, "What to print")
-      ->check(CLI::IsMember({"json", "nc", "csv", "svg"}))
+      ->check(CLI::IsMember({"json", "nc", "csv", "svg", "html"}))
       ->capture_default_str();
   command.add_flag("--correct", arguments->correct,
                    "Shift the path until what is left of the error is small");
   command.footer(
       "Formats: json (error, force, deflection, stability), nc (program of the corrected path, "
       "with\n"
-      "--correct), csv, svg.\n"
+      "--correct), csv, svg (drawing), html (viewer for a browser).\n"
       "Example: ridgeline predict job.json --correct --format nc -o O9102.nc");
 }
 

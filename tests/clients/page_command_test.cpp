@@ -45,6 +45,19 @@ TEST(Page, NeedsNothingFromTheNetwork) {
     EXPECT_EQ(page.find(reference), std::string::npos) << reference;
 }
 
+// What the list of the page shows is the program's, unit by unit.
+TEST(Page, OfUnitsHoldsEveryUnit) {
+  const std::string job = "clients/examples/units_shaft.json";
+  const Json program = ridgeline({"units", "plan", job, "--local"}).json();
+  const Finished page = ridgeline({"units", "plan", job, "--local", "--format", "html"});
+  ASSERT_EQ(page.status, 0) << page.out.substr(0, 1000);
+  const Json list = data_of(page.out).at("units").at("list");
+  ASSERT_EQ(list.size(), program.at("units").size());
+  for (std::size_t i = 0; i < list.size(); ++i)
+    for (const char* key : {"number", "kind", "process", "state", "machining", "tools", "volume"})
+      EXPECT_EQ(list[i].at(key), program.at("units")[i].at(key)) << i << " " << key;
+}
+
 // A name cannot end the data element, nor begin a comment that hides its end.
 TEST(Page, KeepsNamesAsText) {
   Json job = inline_job();

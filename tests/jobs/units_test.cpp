@@ -267,7 +267,6 @@ TEST(UnitsJob, PictureAndTreeNameEveryUnit) {
   for (int i = 1; i <= 24; ++i)
     EXPECT_NE(svg.find("class=\"unit" + std::to_string(i) + "\""), std::string::npos) << i;
   EXPECT_NE(tree.find("24 hole  diameter 6"), std::string::npos) << tree;
-  EXPECT_NE(answer(job, "html", NoDefinitions()).text.find("<pre>"), std::string::npos);
 }
 
 // The drawing of the part: design of units, section 4. Nine round mouths, two slots and one of

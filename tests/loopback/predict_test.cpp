@@ -56,6 +56,14 @@ protected:
     return lasting(there);
   }
 
+  /// The page is the same, or its refusal where no viewer was built.
+  void same_page(const Json& job) {
+    const jobs::Answer there = client_->ask(job.dump(), "html");
+    const jobs::Answer here = jobs::answer(job.dump(), "html", library_);
+    EXPECT_EQ(code(there), code(here)) << there.document;
+    EXPECT_TRUE(there.text == here.text);
+  }
+
   service::Library library_{":memory:"};
   std::unique_ptr<Process> service_;
   std::unique_ptr<Client> client_;
@@ -70,12 +78,14 @@ TEST_F(LoopbackPredict, OneEngagementAnswersTheOracleKeyForKey) {
                             {"options", oracle.at("options")}},
                            "json");
   EXPECT_EQ(answer.at("F").size(), answer.at("D").size());
+  same_page(example("predict/slope.json"));
 }
 
 TEST_F(LoopbackPredict, APathItsCorrectionAndItsProgramComeAsLocally) {
   Json job = coarse(example("predict/port.json"));
   job["along"]["tolerance"] = 0.05;
   both(job, "csv");
+  same_page(job);
   job["correct"] = true;
   const Json answer = both(job, "json");
   EXPECT_EQ(answer.at("corrected").at("position").size(), answer.at("position").size());

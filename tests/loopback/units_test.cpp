@@ -29,6 +29,10 @@ TEST_F(Loopback, TurningProgramsArePlannedEditedAndWrittenAsLocally) {
   const Json program = both({{"job", "units"}, {"product_step", part("own_flanged_shaft.step")}});
   ASSERT_EQ(program["status"], "ok") << program.dump().substr(0, 400);
   EXPECT_EQ(program["units"].size(), 24u);
+  const std::string show =
+      Json({{"job", "units"}, {"operation", "show"}, {"program", program}}).dump();
+  EXPECT_TRUE(client.ask(show, "html").text ==
+              jobs::answer(show, "html", jobs::NoDefinitions()).text);
   const Json after = both({{"job", "units"},
                            {"operation", "edit"},
                            {"program", program},

@@ -1,27 +1,9 @@
-// node viewer_test.mjs RIDGELINE CHROMIUM EXAMPLES: the page of `--format html` in a browser against the JSON result.
+// node viewer_test.mjs RIDGELINE CHROMIUM EXAMPLES: the page of a path in a browser against the JSON result.
 import assert from 'node:assert/strict';
-import {execFileSync} from 'node:child_process';
-import {mkdtempSync, readFileSync, rmSync, statSync, writeFileSync} from 'node:fs';
-import {tmpdir} from 'node:os';
+import {readFileSync, statSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {inBrowser} from './browser.mjs';
-
-const [ridgeline, chromium, examples] = process.argv.slice(2);
-const folder = mkdtempSync(join(tmpdir(), 'ridgeline-viewer-test-'));
-process.on('exit', () => rmSync(folder, {recursive: true, force: true}));
-
-const compute = (arguments_) => execFileSync(ridgeline, [...arguments_, '--local', '--quiet'], {maxBuffer: 1 << 28}).toString();
-function pageOf(command, name = 'page') {
-  const file = join(folder, `${name}.html`);
-  compute([...command, '--format', 'html', '-o', file]);
-  return file;
-}
-function loads({found, errors, asked}) {
-  assert.deepEqual(asked, ['/', '/answer'], 'the page asks for more than itself');
-  assert.deepEqual(errors, []);
-  assert.equal(found.failed, undefined);
-  assert.ok(found.drawn, 'nothing was drawn');
-}
+import {chromium, compute, examples, folder, loads, pageOf} from './pages.mjs';
 
 // Everything that one visit can tell.
 const visit = `async () => {
@@ -49,7 +31,7 @@ const visit = `async () => {
     drawn: ridgeline.drawn, at, pictures: [before.length, after.length, before === after], played, stopped, stepped,
     cutawayTurned: ridgeline.state.cutaway !== cutaway, picked: ridgeline.state.length, total: ridgeline.total,
     cursor: Number(document.querySelector('#charts .cursor')?.getAttribute('x1')),
-    curves: [...document.querySelectorAll('#charts .curve')].map((c) => c.getAttribute('d').length),
+    curves: [...document.querySelectorAll('#charts path.curve')].map((c) => c.getAttribute('d').length),
     now: document.getElementById('now').textContent,
     report: Object.fromEntries([...document.querySelectorAll('#report td[data-key]')].map((c) => [c.dataset.key, c.title])),
     charts: ridgeline.data.charts.map((c) => ({title: c.title, x: [...c.x.values], series: c.series.map((s) => [...s.values])})),

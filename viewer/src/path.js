@@ -12,17 +12,17 @@ export const moveColors = {
 const most_wide = 1500;  // segments: without a graphics card, wide lines are slow
 
 function segments(positions, colors, width) {
+  const color = colors ? 0xffffff : 0xea580c;
   if (positions.length / 6 > most_wide) {
     const plain = new THREE.BufferGeometry();
     plain.setAttribute('position', new THREE.BufferAttribute(positions, 3));
     if (colors) plain.setAttribute('color', new THREE.BufferAttribute(colors, 3));
-    return new THREE.LineSegments(plain, new THREE.LineBasicMaterial({vertexColors: Boolean(colors), color: colors ? 0xffffff : 0xea580c}));
+    return new THREE.LineSegments(plain, new THREE.LineBasicMaterial({vertexColors: Boolean(colors), color}));
   }
   const geometry = new LineSegmentsGeometry();
   geometry.setPositions(positions);
   if (colors) geometry.setColors(colors);
-  const material = new LineMaterial({linewidth: width, vertexColors: Boolean(colors), color: colors ? 0xffffff : 0xea580c});
-  return new LineSegments2(geometry, material);
+  return new LineSegments2(geometry, new LineMaterial({linewidth: width, vertexColors: Boolean(colors), color}));
 }
 
 /** The points of the path: start and the end of every move, with length and time along it. */
@@ -56,16 +56,33 @@ export function placeAt(track, length) {
   return {move: low - 1, point: [mix(0), mix(1), mix(2)]};
 }
 
+/** The pieces of the path; setPieceColors(colorOf) gives each the colour that colorOf(piece) says. */
 export function pathObject(motion, {points, count}) {
   const positions = new Float32Array(6 * (count - 1));
-  const colors = new Float32Array(6 * (count - 1));
+  for (let i = 1; i < count; ++i) positions.set(points.subarray(3 * i - 3, 3 * i + 3), 6 * (i - 1));
+  const colors = new Float32Array(positions.length);
+  const object = segments(positions, colors, 2.5);
   const color = new THREE.Color();
-  for (let i = 1; i < count; ++i) {
-    positions.set(points.subarray(3 * i - 3, 3 * i + 3), 6 * (i - 1));
-    color.set(moveColors[motion.names[motion.kinds[i - 1]]] ?? 0x2563eb);
-    colors.set([color.r, color.g, color.b, color.r, color.g, color.b], 6 * (i - 1));
-  }
-  return segments(positions, colors, 2);
+  object.setPieceColors = (colorOf) => {
+    for (let i = 0; i + 1 < count; ++i) {
+      color.set(colorOf(i));
+      colors.set([color.r, color.g, color.b, color.r, color.g, color.b], 6 * i);
+    }
+    if (object.isLineSegments2) object.geometry.setColors(colors);
+    else object.geometry.attributes.color.needsUpdate = true;
+  };
+  return object;
+}
+
+/** A block of stock that one looks through. */
+export function boxObject({min, max}) {
+  const size = max.map((v, i) => v - min[i]);
+  const shape = new THREE.BoxGeometry(...size);
+  const group = new THREE.Group();
+  group.add(new THREE.Mesh(shape, new THREE.MeshBasicMaterial({color: 0x94a3b8, transparent: true, opacity: 0.18, depthWrite: false})));
+  group.add(new THREE.LineSegments(new THREE.EdgesGeometry(shape), new THREE.LineBasicMaterial({color: 0x64748b})));
+  group.position.set(...min.map((v, i) => v + size[i] / 2));
+  return group;
 }
 
 /** A closed curve through the points. */
