@@ -22,55 +22,12 @@
 #include <optional>
 #include <vector>
 
+#include "part/quadrature.hpp"
 #include "part/shape.hpp"
+#include "part/surface_spans.hpp"
 
 namespace ridgeline::part {
 namespace {
-
-/// Gauss-Legendre, 8 points on [-1, 1].
-constexpr double nodes[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
-                             0.9602898564975363};
-constexpr double weights[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
-                               0.1012285362903763};
-
-constexpr double few_nodes[2] = {0.3399810435848563, 0.8611363115940526};
-constexpr double few_weights[2] = {0.6521451548625461, 0.3478548451374538};
-
-/// f(t, weight) at the Gauss points of [a, b]: 8, or 4 where a curve has many spans.
-template <class F>
-void at_gauss_points(double a, double b, const F& f, std::size_t spans = 1) {
-  const double middle = (a + b) / 2;
-  const double half = (b - a) / 2;
-  if (spans > 6) {
-    for (int i = 0; i < 2; ++i) {
-      f(middle - half * few_nodes[i], half * few_weights[i]);
-      f(middle + half * few_nodes[i], half * few_weights[i]);
-    }
-    return;
-  }
-  for (int i = 0; i < 4; ++i) {
-    f(middle - half * nodes[i], half * weights[i]);
-    f(middle + half * nodes[i], half * weights[i]);
-  }
-}
-
-/// Spans of a curve on which 8 points are enough: between knots, arcs of a quarter circle.
-std::vector<double> spans(double first, double last, const TColStd_Array1OfReal* knots,
-                          double longest) {
-  std::vector<double> limits{first};
-  if (knots != nullptr) {
-    for (const double knot : *knots)
-      if (knot > first + 1e-12 && knot < last - 1e-12) limits.push_back(knot);
-  }
-  limits.push_back(last);
-  std::vector<double> fine{first};
-  for (std::size_t i = 0; i + 1 < limits.size(); ++i) {
-    const double width = limits[i + 1] - limits[i];
-    const int n = std::max(1, static_cast<int>(std::ceil(width / longest - 1e-9)));
-    for (int k = 1; k <= n; ++k) fine.push_back(limits[i] + width * k / n);
-  }
-  return fine;
-}
 
 std::vector<double> curve_spans(const BRepAdaptor_Curve& curve) {
   const double first = curve.FirstParameter();
@@ -81,7 +38,11 @@ std::vector<double> curve_spans(const BRepAdaptor_Curve& curve) {
                                                          : (last - first) / 4;
   Handle(Geom_BSplineCurve) spline;
   if (curve.GetType() == GeomAbs_BSplineCurve) spline = curve.BSpline();
-  return spans(first, last, spline.IsNull() ? nullptr : &spline->Knots(), longest);
+  std::vector<double> found =
+      spans(first, last, spline.IsNull() ? nullptr : &spline->Knots(), longest);
+  const bool is_rational = !spline.IsNull() && spline->IsRational();
+  const int degree = spline.IsNull() ? 0 : spline->Degree();
+  return needs_halves(is_rational, degree, found.size()) ? halved(found) : found;
 }
 
 /// What is integrated: area, n (3), p n^T (9, row by row).
@@ -217,15 +178,9 @@ struct Reach {
   double high = -HUGE_VAL;
 };
 
-/// Where a surface is not smooth: an integrand is not, either.
-struct Knots {
-  std::vector<double> u;
-  std::vector<double> v;
-};
-
 /// Parameters of a line between first and last where it meets a knot of the surface.
 TColStd_Array1OfReal crossings(const gp_Lin2d& line, double first, double last,
-                               const Knots& knots) {
+                               const SurfaceSpans& knots) {
   std::vector<double> found{first};
   const auto add = [&](const std::vector<double>& values, double at, double along) {
     if (std::abs(along) < 1e-14) return;
@@ -242,11 +197,36 @@ TColStd_Array1OfReal crossings(const gp_Lin2d& line, double first, double last,
   return limits;
 }
 
+/// The same for any curve, between `limits` that follow its turns.
+void add_crossings(const Geom2dAdaptor_Curve& curve, const SurfaceSpans& knots,
+                   std::vector<double>& limits) {
+  constexpr int halvings = 50;
+  std::vector<double> found;
+  const auto add = [&](const std::vector<double>& values, const auto& coordinate) {
+    for (std::size_t i = 0; i + 1 < limits.size(); ++i) {
+      for (const double value : values) {
+        double low = limits[i], high = limits[i + 1];
+        const bool is_rising = coordinate(low) < value;
+        if (is_rising == (coordinate(high) < value)) continue;
+        for (int k = 0; k < halvings; ++k) {
+          const double middle = (low + high) / 2;
+          ((coordinate(middle) < value) == is_rising ? low : high) = middle;
+        }
+        found.push_back(high);
+      }
+    }
+  };
+  add(knots.u, [&](double t) { return curve.Value(t).X(); });
+  add(knots.v, [&](double t) { return curve.Value(t).Y(); });
+  limits.insert(limits.end(), found.begin(), found.end());
+  std::sort(limits.begin(), limits.end());
+}
+
 /// Closed integral along the parameter curves of `integrand(p, dp)`, spans of lines no longer than
 /// `longest`. The integrand is G dv, or -H du: it vanishes along lines of constant v, or u.
 template <class Integrand>
 Sums integral_along(const TopoDS_Face& face, const Integrand& integrand, double longest,
-                    Reach& reach, const Knots& knots = {}) {
+                    Reach& reach, const SurfaceSpans& knots = {}) {
   Sums sums = Sums::Zero();
   for_each_edge(face, [&](const TopoDS_Edge& edge, double sign) {
     double first = 0, last = 0;
@@ -270,6 +250,8 @@ Sums integral_along(const TopoDS_Face& face, const Integrand& integrand, double 
     if (curve.GetType() == GeomAbs_Line) {
       const TColStd_Array1OfReal at_knots = crossings(curve.Line(), first, last, knots);
       limits = spans(first, last, &at_knots, width);
+    } else if (!knots.u.empty()) {
+      add_crossings(curve, knots, limits);
     }
     const auto add = [&](double t, double weight) {
       gp_Pnt2d p;
@@ -302,7 +284,7 @@ Sums density(const BRepAdaptor_Surface& surface, double u, double v) {
 
 /// Integral of `f` from a to b over the spans between knots.
 template <class F>
-Sums integral_across(double a, double b, const TColStd_Array1OfReal& knots, const F& f) {
+Sums integral_across(double a, double b, const std::vector<double>& knots, const F& f) {
   Sums sums = Sums::Zero();
   const double sign = b < a ? -1 : 1;
   const std::vector<double> limits = spans(std::min(a, b), std::max(a, b), &knots, HUGE_VAL);
@@ -317,32 +299,26 @@ Sums integral_across(double a, double b, const TColStd_Array1OfReal& knots, cons
 /// Any other surface: the primitive by Gauss points across, in the direction of fewer spans.
 void integrate_numerically(const TopoDS_Face& face, const BRepAdaptor_Surface& surface,
                            Face& result) {
-  const int nu = surface.NbUIntervals(GeomAbs_CN);
-  const int nv = surface.NbVIntervals(GeomAbs_CN);
-  TColStd_Array1OfReal u_knots(1, nu + 1);
-  TColStd_Array1OfReal v_knots(1, nv + 1);
-  surface.UIntervals(u_knots, GeomAbs_CN);
-  surface.VIntervals(v_knots, GeomAbs_CN);
+  const SurfaceSpans knots = surface_spans(surface);
   const double u0 = surface.FirstUParameter();
   const double v0 = surface.FirstVParameter();
   const auto along_u = [&](const gp_Pnt2d& p, const gp_Vec2d& d, double weight, Sums& sums) {
     if (std::abs(d.Y()) < 1e-14) return;
-    sums += weight * d.Y() * integral_across(u0, p.X(), u_knots, [&](double u) {
+    sums += weight * d.Y() * integral_across(u0, p.X(), knots.u, [&](double u) {
               return density(surface, u, p.Y());
             });
   };
   const auto along_v = [&](const gp_Pnt2d& p, const gp_Vec2d& d, double weight, Sums& sums) {
     if (std::abs(d.X()) < 1e-14) return;
-    sums -= weight * d.X() * integral_across(v0, p.Y(), v_knots, [&](double v) {
+    sums -= weight * d.X() * integral_across(v0, p.Y(), knots.v, [&](double v) {
               return density(surface, p.X(), v);
             });
   };
   Reach reach;
   const bool is_round = surface.GetType() == GeomAbs_SurfaceOfRevolution;
   const double longest = is_round ? std::numbers::pi / 2 : HUGE_VAL;
-  const Knots knots{{u_knots.begin(), u_knots.end()}, {v_knots.begin(), v_knots.end()}};
-  store(nv < nu ? integral_along(face, along_v, longest, reach, knots)
-                : integral_along(face, along_u, longest, reach, knots),
+  store(knots.v.size() < knots.u.size() ? integral_along(face, along_v, longest, reach, knots)
+                                        : integral_along(face, along_u, longest, reach, knots),
         result);
 }
 

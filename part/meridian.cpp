@@ -13,7 +13,7 @@ using units::Curve;
 using units::Point;
 
 constexpr double pi = std::numbers::pi;
-constexpr double fit_tolerance = 5e-5;  // [mm], of free-form meridians; design 1.3 says 1e-4
+constexpr double fit_tolerance = 2e-5;  // [mm], of free-form meridians
 
 double radius_of(const Eigen::Vector3d& p) {
   return std::hypot(p.x(), p.y());
@@ -172,7 +172,7 @@ int longest_edge(const Placed& part, const Face& face) {
 void add_free(const Placed& part, const Face& face, int number, std::vector<Meridian>& found) {
   const int edge = longest_edge(part, face);
   if (edge < 0) return;
-  constexpr int n = 256;
+  constexpr int n = 1024;  // a piece of three points would always fit
   std::vector<Point> points;
   for (int i = 0; i <= n; ++i) {
     const Eigen::Vector3d p = part.edge_point(edge, static_cast<double>(i) / n);
