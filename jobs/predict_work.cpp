@@ -188,13 +188,16 @@ std::vector<std::size_t> entries_of(const std::vector<Place>& places) {
 }
 
 /// What the page shows beside the path: the stock as a box, the ball.
-nlohmann::json scene_of(const HeightMap& stock, const tool::Tool& tool, const Vector3d& to_centre) {
+nlohmann::json scene_of(const HeightMap& stock, const nlohmann::json& given, const tool::Tool& tool,
+                        const Vector3d& to_centre) {
   const auto [low, high] = std::ranges::minmax(stock.heights);
+  const double floor = given.contains("min") ? given["min"][2].get<double>() : low;
   const Eigen::Vector2d far =
       stock.origin + stock.cell * Eigen::Vector2d(stock.columns - 1, stock.rows - 1);
-  return {{"box",
-           {{"min", {stock.origin.x(), stock.origin.y(), low}}, {"max", {far.x(), far.y(), high}}}},
-          {"tool", page_tool(tool, Vector3d::UnitZ(), to_centre.z())}};
+  return {
+      {"box",
+       {{"min", {stock.origin.x(), stock.origin.y(), floor}}, {"max", {far.x(), far.y(), high}}}},
+      {"tool", page_tool(tool, Vector3d::UnitZ(), to_centre.z())}};
 }
 
 AlongResult run(AlongJob& job, const HeightMap& stock, const std::vector<Place>& places,
@@ -268,7 +271,8 @@ Answer predict_work(Object& job, Object& along, WorkPath work, const ResolvedToo
   enum class Control { Tip, Centre };
   constexpr Choices<Control, 2> controls{{{"tip", Control::Tip}, {"centre", Control::Centre}}};
   const double radius = tool::cutting_radius(tool.tool);
-  const HeightMap stock = read_stock(along.required("stock"), radius);
+  const Value given = along.required("stock");
+  const HeightMap stock = read_stock(given, radius);
   const double step =
       along.number("step", between(0.01, 100, "mm"), std::clamp(radius / 4, 0.05, 2.0));
   const Control control = along.choice("control_point", controls, Control::Tip);
@@ -303,7 +307,8 @@ Answer predict_work(Object& job, Object& along, WorkPath work, const ResolvedToo
   if (request.format == "csv") answer.text = path_csv(path);
   if (request.format == "svg") answer.text = path_drawing(read, path);
   if (request.format == "html")
-    answer.text = path_page(read, path, answer.document, scene_of(stock, tool.tool, to_centre));
+    answer.text =
+        path_page(read, path, answer.document, scene_of(stock, given.json(), tool.tool, to_centre));
   if (request.format == "nc") {
     nc::Program program = work.program;
     program.motion = corrected_motion(work, places, path.result.after, to_centre);

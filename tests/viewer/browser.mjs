@@ -16,7 +16,15 @@ const watch = `<script>
 
 const patience = 90000;  // a loaded machine without a graphics card [ms]
 
-function answerOf(chromium, text, folder, size, options) {
+// Brings up all that a browser starts with its first picture, then goes to the page.
+const warmUp = `<!DOCTYPE html><html lang="en"><head><link rel="icon" href="data:,"></head><body><canvas></canvas><script>
+  const gl = document.querySelector('canvas').getContext('webgl2');
+  gl.clear(gl.COLOR_BUFFER_BIT);
+  gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  setTimeout(() => { location.href = '/page'; }, 1000);
+</script></body></html>`;
+
+function answerOf(chromium, text, folder, size, options, isWarm) {
   return new Promise((resolve, reject) => {
     const asked = [];
     let browser = null;
@@ -24,7 +32,7 @@ function answerOf(chromium, text, folder, size, options) {
       asked.push(request.url);
       if (request.method !== 'POST') {
         response.setHeader('Content-Type', 'text/html; charset=utf-8');
-        response.end(request.url === '/' ? text : '');
+        response.end(request.url === (isWarm ? '/page' : '/') ? text : isWarm && request.url === '/' ? warmUp : '');
         return;
       }
       let body = '';
@@ -61,8 +69,9 @@ async function remove(folder) {
   }
 }
 
-/** Runs `probe` (an async function in the page; its value must be JSON) after the page has loaded. */
-export async function inBrowser(chromium, page, probe, {size = '1280,900', options = []} = {}) {
+/** Runs `probe` (an async function in the page; its value must be JSON) after the page has loaded. `isWarm`: in a browser
+ * that has drawn before. */
+export async function inBrowser(chromium, page, probe, {size = '1280,900', options = [], isWarm = false} = {}) {
   const ask = `<script>(async () => {
     await new Promise((done) => addEventListener('load', () => requestAnimationFrame(() => requestAnimationFrame(done))));
     const found = await (${probe})().catch((e) => ({failed: String(e)}));
@@ -73,7 +82,7 @@ export async function inBrowser(chromium, page, probe, {size = '1280,900', optio
     .replace(/<\/body>\s*<\/html>\s*$/, () => `${ask}</body></html>`);
   const folder = mkdtempSync(join(tmpdir(), 'ridgeline-viewer-'));
   try {
-    return await answerOf(chromium, text, folder, size, options);
+    return await answerOf(chromium, text, folder, size, options, isWarm);
   } finally {
     await remove(folder);
   }

@@ -9,7 +9,7 @@ function frameOf(data, line) {
   if (data.focus) return {centre: new THREE.Vector3(...data.focus.centre), size: data.focus.size};
   const cloud = new THREE.Box3().setFromArray(line.points);
   if (data.box) cloud.union(new THREE.Box3(new THREE.Vector3(...data.box.min), new THREE.Vector3(...data.box.max)));
-  const extent = cloud.getSize(new THREE.Vector3()).length() / 2;
+  const extent = 0.6 * cloud.getSize(new THREE.Vector3()).length();
   return {centre: cloud.getCenter(new THREE.Vector3()), size: Math.max(extent, data.part ? reach(data.part) : 0, 1)};
 }
 
@@ -60,19 +60,17 @@ export function motionView(host, data, told) {
   return view;
 }
 
-// A colour a piece; pieces that the chart does not reach keep that of their kind.
+// A colour a piece; pieces that the chart does not reach are grey.
 function pieceColors(motion, line, chart) {
-  const kindColor = (piece) => moveColors[motion.names[motion.kinds[piece]]] ?? moveColors.cut;
-  if (!chart) return (piece) => kindColor(piece);
+  if (!chart) return (piece) => moveColors[motion.names[motion.kinds[piece]]] ?? moveColors.cut;
   const {values} = chart.series[0];
   const order = Array.from(values.keys()).filter((i) => Number.isFinite(values[i])).sort((a, b) => chart.at[a] - chart.at[b]);
-  if (order.length === 0) return (piece) => kindColor(piece);
   const [low, high] = rangeOf(values);
   const slack = 1e-3;  // the path is drawn in float32 [mm]
   return (piece) => {
     const [from, to] = [line.lengths[piece], line.lengths[piece + 1]];
-    if (to > chart.at[order.at(-1)] + slack + (to - from) || from < chart.at[order[0]] - slack - (to - from)) return kindColor(piece);
-    if (motion.names[motion.kinds[piece]] === 'rapid') return kindColor(piece);
+    const isOutside = order.length === 0 || from > chart.at[order.at(-1)] + slack || to < chart.at[order[0]] - slack;
+    if (isOutside || motion.names[motion.kinds[piece]] === 'rapid') return moveColors.rapid;
     let a = 0;
     let b = order.length - 1;
     while (a < b) {

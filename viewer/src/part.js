@@ -1,22 +1,22 @@
 // The part as trimmed analytic surfaces: every surface is drawn whole and its fragments are kept only where they bound
 // material, by the same signed distances that the solver uses. Edges are exact at every zoom.
 import * as THREE from 'three';
+import {surface} from './surface.js';
 
 const MAX_HOLES = 16;
 
 const distances = /* glsl */ `
-  #define MAX_HOLES ${MAX_HOLES}
-  uniform int holes;
-  uniform vec3 holeOrigin[MAX_HOLES];
-  uniform mat3 holeAxes[MAX_HOLES];    // columns x', y', z'
-  uniform vec3 holeProfile[MAX_HOLES]; // half straight across, half straight along, R2
-  uniform vec2 holeRange[MAX_HOLES];   // along z'
-  uniform int block;                   // 1: manifold block
+  uniform vec3 holeOrigin[HOLES];
+  uniform mat3 holeAxes[HOLES];    // columns x', y', z'
+  uniform vec3 holeProfile[HOLES]; // half straight across, half straight along, R2
+  uniform vec2 holeRange[HOLES];   // along z'
   uniform vec3 bodyOrigin;
   uniform mat3 bodyAxes;               // columns across, A1, up
   uniform vec3 bodyHalf;               // block: half sizes; cylinder: outer radius, half length, 0
   uniform float boreRadius;
   uniform float tolerance;
+  uniform int cutaway;
+  uniform int cap;  // 1: the face of the cut
 
   float profileDistance(vec2 p, vec3 profile) {
     vec2 q = abs(p) - profile.xy;
@@ -24,12 +24,14 @@ const distances = /* glsl */ `
   }
   float material(vec3 p) {
     vec3 b = transpose(bodyAxes) * (p - bodyOrigin);
-    float outer;
-    if (block == 1) { vec3 q = abs(b) - bodyHalf; outer = max(q.x, max(q.y, q.z)); }
-    else outer = max(length(b.xz) - bodyHalf.x, abs(b.y) - bodyHalf.y);
+    #if BLOCK
+      vec3 q = abs(b) - bodyHalf;
+      float outer = max(q.x, max(q.y, q.z));
+    #else
+      float outer = max(length(b.xz) - bodyHalf.x, abs(b.y) - bodyHalf.y);
+    #endif
     float d = max(outer, boreRadius - length(b.xz));
-    for (int i = 0; i < MAX_HOLES; ++i) {
-      if (i >= holes) break;
+    for (int i = 0; i < HOLES; ++i) {
       vec3 h = transpose(holeAxes[i]) * (p - holeOrigin[i]);
       float inside = max(profileDistance(h.xy, holeProfile[i]), max(holeRange[i].x - h.z, h.z - holeRange[i].y));
       d = max(d, -inside);
@@ -45,17 +47,12 @@ function matrix3(columns) {
 
 function uniformsOf(part) {
   const holes = part.holes.slice(0, MAX_HOLES);
-  const fill = (list, empty) => [...list, ...Array(MAX_HOLES - list.length).fill(empty)];
   const block = part.shape === 'manifold_block';
   return {
-    holes: {value: holes.length},
-    holeOrigin: {value: fill(holes.map((h) => new THREE.Vector3(...h.position)), new THREE.Vector3())},
-    holeAxes: {value: fill(holes.map((h) => matrix3(h.axes)), new THREE.Matrix3())},
-    holeProfile: {
-      value: fill(holes.map((h) => new THREE.Vector3(h.straight_across / 2, h.straight_along / 2, h.radius)), new THREE.Vector3()),
-    },
-    holeRange: {value: fill(holes.map((h) => new THREE.Vector2(...h.range)), new THREE.Vector2())},
-    block: {value: block ? 1 : 0},
+    holeOrigin: {value: holes.map((h) => new THREE.Vector3(...h.position))},
+    holeAxes: {value: holes.map((h) => matrix3(h.axes))},
+    holeProfile: {value: holes.map((h) => new THREE.Vector3(h.straight_across / 2, h.straight_along / 2, h.radius))},
+    holeRange: {value: holes.map((h) => new THREE.Vector2(...h.range))},
     bodyOrigin: {value: new THREE.Vector3(...part.position)},
     bodyAxes: {value: matrix3(part.axes)},
     bodyHalf: {
@@ -72,21 +69,12 @@ export function reach(part) {
   return part.shape === 'manifold_block' ? Math.max(...part.size) / 2 : Math.max(part.outer_radius, part.length / 2);
 }
 
-function trimmed(uniforms, color, isCap = false) {
-  const material = new THREE.MeshStandardMaterial({color, roughness: 0.6, metalness: 0.25, side: THREE.DoubleSide});
-  material.customProgramCacheKey = () => isCap ? 'cap' : 'surface';
-  material.onBeforeCompile = (shader) => {
-    Object.assign(shader.uniforms, uniforms);
-    shader.vertexShader = shader.vertexShader
-      .replace('#include <common>', '#include <common>\nvarying vec3 place;')
-      .replace('#include <begin_vertex>', '#include <begin_vertex>\nplace = (modelMatrix * vec4(position, 1.0)).xyz;');
-    shader.fragmentShader = shader.fragmentShader
-      .replace('#include <common>', `#include <common>\nvarying vec3 place;\nuniform int cutaway;\n${distances}`)
-      .replace('#include <clipping_planes_fragment>', `
-        if (material(place) > ${isCap ? '0.0' : 'tolerance'}) discard;
-        ${isCap ? '' : 'if (cutaway == 1 && dot(place - holeOrigin[0], holeAxes[0][1]) < 0.0) discard;'}`);
-  };
-  return material;
+function trimmed(uniforms, isBlock, color, isCap = false) {
+  const defines = {HOLES: uniforms.holeOrigin.value.length, BLOCK: isBlock ? 1 : 0};
+  const keep = `
+    if (cap == 0 && cutaway == 1 && dot(place - holeOrigin[0], holeAxes[0][1]) < 0.0) discard;
+    if (material(place) > (cap == 1 ? 0.0 : tolerance)) discard;`;
+  return surface(color, {trim: {uniforms: {...uniforms, cap: {value: isCap ? 1 : 0}}, defines, distances, keep}});
 }
 
 function basis(axes, origin) {
@@ -132,21 +120,25 @@ export function partObject(part) {
   const uniforms = uniformsOf(part);
   const group = new THREE.Group();
   const body = basis(part.axes, part.position);
-  const outer = trimmed(uniforms, 0xb6bec9);
-  const inner = trimmed(uniforms, 0xc9b18f);
-  const size = 2 * reach(part);
-  if (part.shape === 'manifold_block') {
+  const isBlock = part.shape === 'manifold_block';
+  const outer = trimmed(uniforms, isBlock, 0xb6bec9);
+  const inner = trimmed(uniforms, isBlock, 0xc9b18f);
+  // What lies outside of this ball is no part of it: walls and the face of the cut go no further.
+  const ball = isBlock ? Math.hypot(...part.size) / 2 : Math.hypot(part.outer_radius, part.length / 2);
+  const far = (hole) => ball + Math.hypot(...hole.position.map((v, i) => v - part.position[i]));
+  if (isBlock) {
     group.add(place(new THREE.Mesh(new THREE.BoxGeometry(...part.size), outer), body));
   } else {
     group.add(place(new THREE.Mesh(new THREE.CylinderGeometry(part.outer_radius, part.outer_radius, part.length, 192, 1), outer), body));
   }
-  const length = part.shape === 'manifold_block' ? part.size[1] : part.length;
+  const length = isBlock ? part.size[1] : part.length;
   group.add(place(new THREE.Mesh(new THREE.CylinderGeometry(part.inner_radius, part.inner_radius, length, 192, 1, true), inner), body));
   for (const hole of part.holes.slice(0, MAX_HOLES)) {
-    group.add(place(new THREE.Mesh(wallGeometry(hole, 4 * size), inner), basis(hole.axes, hole.position)));
+    group.add(place(new THREE.Mesh(wallGeometry(hole, far(hole)), inner), basis(hole.axes, hole.position)));
   }
   // The face of the cut: the plane of A2 and x' through the first hole, where it is material.
-  const cap = new THREE.Mesh(new THREE.PlaneGeometry(4 * size, 4 * size), trimmed(uniforms, 0x8d97a5, true));
+  const side = part.holes.length > 0 ? 2 * far(part.holes[0]) : 1;
+  const cap = new THREE.Mesh(new THREE.PlaneGeometry(side, side), trimmed(uniforms, isBlock, 0x8d97a5, true));
   if (part.holes.length > 0) {
     const [x, y, z] = part.holes[0].axes;
     group.add(place(cap, basis([x, z, y.map((v) => -v)], part.holes[0].position)));

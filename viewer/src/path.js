@@ -3,6 +3,7 @@ import * as THREE from 'three';
 import {LineSegments2} from 'three/examples/jsm/lines/LineSegments2.js';
 import {LineSegmentsGeometry} from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 import {LineMaterial} from 'three/examples/jsm/lines/LineMaterial.js';
+import {surface, thinLines} from './surface.js';
 
 export const moveColors = {
   rapid: 0x9aa3ad, approach: 0x0891b2, lead_in: 0x16a34a, cut: 0x2563eb, lead_out: 0xca8a04, retract: 0x9333ea,
@@ -11,18 +12,20 @@ export const moveColors = {
 
 const most_wide = 1500;  // segments: without a graphics card, wide lines are slow
 
+const ridgeColor = new THREE.Color(0xea580c);
+
+/** Pieces of line from positions, x y z of both ends of each; `colors`: the same of their colours. */
 function segments(positions, colors, width) {
-  const color = colors ? 0xffffff : 0xea580c;
   if (positions.length / 6 > most_wide) {
     const plain = new THREE.BufferGeometry();
     plain.setAttribute('position', new THREE.BufferAttribute(positions, 3));
-    if (colors) plain.setAttribute('color', new THREE.BufferAttribute(colors, 3));
-    return new THREE.LineSegments(plain, new THREE.LineBasicMaterial({vertexColors: Boolean(colors), color}));
+    plain.setAttribute('shade', new THREE.BufferAttribute(colors, 3));
+    return new THREE.LineSegments(plain, thinLines());
   }
   const geometry = new LineSegmentsGeometry();
   geometry.setPositions(positions);
-  if (colors) geometry.setColors(colors);
-  return new LineSegments2(geometry, new LineMaterial({linewidth: width, vertexColors: Boolean(colors), color}));
+  geometry.setColors(colors);
+  return new LineSegments2(geometry, new LineMaterial({linewidth: width, vertexColors: true}));
 }
 
 /** The points of the path: start and the end of every move, with length and time along it. */
@@ -69,7 +72,7 @@ export function pathObject(motion, {points, count}) {
       colors.set([color.r, color.g, color.b, color.r, color.g, color.b], 6 * i);
     }
     if (object.isLineSegments2) object.geometry.setColors(colors);
-    else object.geometry.attributes.color.needsUpdate = true;
+    else object.geometry.attributes.shade.needsUpdate = true;
   };
   return object;
 }
@@ -79,7 +82,7 @@ export function boxObject({min, max}) {
   const size = max.map((v, i) => v - min[i]);
   const shape = new THREE.BoxGeometry(...size);
   const group = new THREE.Group();
-  group.add(new THREE.Mesh(shape, new THREE.MeshBasicMaterial({color: 0x94a3b8, transparent: true, opacity: 0.18, depthWrite: false})));
+  group.add(new THREE.Mesh(shape, surface(0x94a3b8, {opacity: 0.25, depthWrite: false})));
   group.add(new THREE.LineSegments(new THREE.EdgesGeometry(shape), new THREE.LineBasicMaterial({color: 0x64748b})));
   group.position.set(...min.map((v, i) => v + size[i] / 2));
   return group;
@@ -94,7 +97,9 @@ export function loopObject(points, width) {
     positions.set(points.subarray(3 * i, 3 * i + 3), 6 * i);
     positions.set(points.subarray(3 * j, 3 * j + 3), 6 * i + 3);
   }
-  return segments(positions, null, width);
+  const color = ridgeColor.toArray();
+  const colors = Float32Array.from(positions, (_, i) => color[i % 3]);
+  return segments(positions, colors, width);
 }
 
 /** The chamfer: a band between the borders G1 and G2, ends = x1 y1 z1 x2 y2 z2 a point. */
@@ -111,19 +116,14 @@ export function bandObject(ends) {
   geometry.computeVertexNormals();
   // The surfaces are drawn whole: the band lies up to its width below them and is drawn that much nearer.
   const width = Math.hypot(ends[3] - ends[0], ends[4] - ends[1], ends[5] - ends[2]);
-  const material = new THREE.MeshStandardMaterial({color: 0xf97316, side: THREE.DoubleSide, roughness: 0.8});
-  material.onBeforeCompile = (shader) => {
-    shader.vertexShader = shader.vertexShader.replace('#include <project_vertex>', `#include <project_vertex>
-      gl_Position = projectionMatrix * vec4(mvPosition.xyz * (1.0 - ${(0.75 * width).toFixed(6)} / length(mvPosition.xyz)), 1.0);`);
-  };
-  return new THREE.Mesh(geometry, material);
+  return new THREE.Mesh(geometry, surface(0xf97316, {nearer: 0.75 * width}));
 }
 
 /** Ball, neck, shank and holder about the tool axis; origin at the ball's centre. */
 export function toolObject(tool) {
   const group = new THREE.Group();
-  const steel = new THREE.MeshStandardMaterial({color: 0x0f766e, roughness: 0.4, metalness: 0.4, transparent: true, opacity: 0.75});
-  const holder = new THREE.MeshStandardMaterial({color: 0x475569, roughness: 0.7, transparent: true, opacity: 0.5});
+  const steel = surface(0x0f766e, {opacity: 0.75});
+  const holder = surface(0x475569, {opacity: 0.5});
   group.add(new THREE.Mesh(new THREE.SphereGeometry(tool.radius, 48, 32), steel));
   const part = (radius, from, to, material) => {
     if (!(radius > 0) || !(to > from)) return;

@@ -3,6 +3,7 @@ import * as THREE from 'three';
 import {drawSection} from './section.js';
 import {pairsOf, turned, unitSolid} from './solid.js';
 import {makeStage} from './stage.js';
+import {surface} from './surface.js';
 
 const round = (v) => String(Number(v.toPrecision(6)));
 
@@ -63,15 +64,14 @@ function treeOf(list, choose) {
 export function unitsView({host, picture, tree}, data, told) {
   const {list, box} = data.units;
   const centre = new THREE.Vector3(0, 0, (box.z0 + box.z1) / 2);
-  const size = Math.hypot(box.r1, (box.z1 - box.z0) / 2);
+  const size = 1.2 * Math.hypot(box.r1, (box.z1 - box.z0) / 2);
   const stage = makeStage(host, {frame: {centre, size}, view: [0.55, 1.2, 0.25], up: [1, 0, 0]});
   const view = {stage, total: list.length, number: null, done: 0, cutaway: true, hasCutaway: true, list};
 
-  const body = new THREE.MeshStandardMaterial({color: 0xb6bec9, roughness: 0.6, metalness: 0.25, side: THREE.DoubleSide});
+  const body = surface(0xb6bec9);
   const cavity = new THREE.Color(0x1f2937);
-  const materials = list.map((unit, i) => new THREE.MeshStandardMaterial({
-    color: colorOf(unit.hue), roughness: 0.7, side: THREE.DoubleSide, transparent: true,
-    polygonOffset: true, polygonOffsetFactor: -1 - (i % 8), polygonOffsetUnits: -1}));
+  const materials = list.map((unit, i) => surface(colorOf(unit.hue), {
+    transparent: true, polygonOffset: true, polygonOffsetFactor: -1 - (i % 8), polygonOffsetUnits: -1}));
   let solids = [];
   function build() {
     for (const old of stage.scene.children.filter((child) => child.userData.solid)) stage.scene.remove(old);
@@ -91,8 +91,7 @@ export function unitsView({host, picture, tree}, data, told) {
       const isChosen = unit.number === view.number;
       const isCavity = unit.solid !== null && isDone;  // what is drilled or milled stays visible as a hole
       solids[i].visible = !isDone || isCavity || isChosen;
-      materials[i].color.copy(isCavity && !isChosen ? cavity : colorOf(unit.hue));
-      materials[i].opacity = view.number === null || isChosen ? 1 : 0.25;
+      materials[i].paint(isCavity && !isChosen ? cavity : colorOf(unit.hue), view.number === null || isChosen ? 1 : 0.25);
       materials[i].depthTest = !isChosen;
       materials[i].depthWrite = view.number === null || isChosen;
       solids[i].renderOrder = isChosen ? 1 : 0;
