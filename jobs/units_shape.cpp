@@ -31,6 +31,13 @@ Json row_document(const Segment& row) {
   return document;
 }
 
+/// The centre of a flat arc lies far away, that of an ogive beyond the axis.
+Point read_centre(const Value& value) {
+  constexpr Range range = between(-2e6, 2e6, "mm");
+  const std::vector<Value> both = value.array(2, 2);
+  return {both[0].number(range), both[1].number(range)};
+}
+
 Segment read_arc(Object& object, const Point& start, const Point& end) {
   const double R = object.number("radius", above(0, 1e6, "mm"));
   const Sense sense = object.required("sense").choice(senses);
@@ -41,7 +48,7 @@ Segment read_arc(Object& object, const Point& start, const Point& end) {
     const double least = std::hypot(end.r - start.r, end.z - start.z) / 2;
     return units::arc_segment(start, end, std::max(R, least), sense);
   }
-  Segment row{start, end, Segment::Round{read_point(*centre), R, sense}};
+  Segment row{start, end, Segment::Round{read_centre(*centre), R, sense}};
   for (const Point& p : {start, end}) {
     const double distance = std::hypot(p.r - row.arc->centre.r, p.z - row.arc->centre.z);
     if (!(std::abs(distance - R) <= centre_tolerance))

@@ -10,7 +10,8 @@ namespace {
 using units::Curve;
 using units::Point;
 
-constexpr double across = 1e-7;  // [mm]: a run in z shorter than this has no r(z)
+constexpr double largest_radius = 1e6;  // [mm], as documents of shapes have it
+constexpr double across = 1e-7;         // [mm]: a run in z shorter than this has no r(z)
 
 /// Circle through three points; nullopt when they are in line.
 std::optional<Curve> circle_through(const Point& a, const Point& b, const Point& c) {
@@ -22,6 +23,7 @@ std::optional<Curve> circle_through(const Point& a, const Point& b, const Point&
   const double z = a.z + (acr * b2 - abr * l2) / twice_area;
   const double r = a.r + (abz * l2 - acz * b2) / twice_area;
   const double R = std::hypot(a.z - z, a.r - r);
+  if (!(R <= largest_radius)) return std::nullopt;
   const int side = b.r > r ? 1 : -1;
   if ((a.r - r) * side < -1e-9 || (c.r - r) * side < -1e-9) return std::nullopt;
   return Curve{.a = {r, z}, .b = {}, .radius = R, .side = side};

@@ -10,6 +10,7 @@ namespace ridgeline::nc {
 namespace {
 
 constexpr double to_millimetre_grid = 1000;
+constexpr double shortest_arc = 0.002;  // [mm]
 
 /// At most `decimals`, always with a point, never -0.
 std::string word(char letter, double value, int decimals = 4) {
@@ -111,8 +112,8 @@ private:
     std::string text;
     std::string code = "G1";
     if (move.kind == LatheMove::Kind::Rapid) code = "G0";
-    if (move.kind == LatheMove::Kind::Arc) code = move.is_clockwise ? "G2" : "G3";
-    const bool is_arc = move.kind == LatheMove::Kind::Arc;
+    const bool is_arc = move.kind == LatheMove::Kind::Arc && !is_short(move);
+    if (is_arc) code = move.is_clockwise ? "G2" : "G3";
     if (is_arc || !is_at(at_x_, move.x)) text += " " + word('X', 2 * move.x);
     if (move.y && !is_at(at_y_, *move.y)) text += " " + word('Y', *move.y);
     if (is_arc || !is_at(at_z_, move.z)) text += " " + word('Z', move.z);
@@ -129,6 +130,11 @@ private:
     at_x_ = move.x;
     at_z_ = move.z;
     if (move.y) at_y_ = move.y;
+  }
+
+  /// An arc between points that the control's increments may make one: with R it is none.
+  bool is_short(const LatheMove& move) const {
+    return at_x_ && at_z_ && std::hypot(move.x - *at_x_, move.z - *at_z_) < shortest_arc;
   }
 
   /// Would the words print alike?

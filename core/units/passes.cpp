@@ -17,6 +17,7 @@ using Moves = std::vector<TurningMove>;
 constexpr double lift = 0.5;          // [mm] that a tool leaves the wall before it goes back
 constexpr double least_depth = 0.01;  // [mm]
 constexpr std::size_t most_passes = 5000;
+constexpr double no_volume = 1e-4;  // [mm^3] that is nothing but rounding
 
 [[noreturn]] void refuse(const Unit& unit, std::size_t row, const char* key, double value,
                          const std::string& limit) {
@@ -154,17 +155,18 @@ Box work_between(const Region& region, double a, double b, double z0, double z1)
   return box(intersection_of(region, rectangle(std::min(a, b), std::max(a, b), z0, z1)));
 }
 
-Moves bar_moves(const Unit& unit, const Bar& bar, const ToolRow& row, double allowance,
-                double start_r, const Region& stock, bool is_rough) {
+/// `work_left`: of the region what no tool before has removed.
+Moves bar_moves(const Unit& unit, const Bar& bar, const Region& work_left, const ToolRow& row,
+                double allowance, const Region& stock, bool is_rough) {
   const double R = row.nose_radius;
   const Reach reach = reach_of(bar, R);
   const double safe = safe_radius(bar, stock, R);
   const std::vector<Segment> skin = skin_of(bar, allowance + R, reach.z0(), reach.z1());
   Way way({safe, reach.entry});
   const Box b = box(bar.region);
-  if (is_rough && !is_empty(bar.region)) {
+  if (is_rough && !is_empty(work_left)) {
     const double sign = bar.is_outer ? -1 : 1;
-    double last = bar.is_outer ? b.r1 : std::max(b.r0, start_r);
+    double last = bar.is_outer ? b.r1 : box(work_left).r0;
     const double goal = bar.is_outer ? b.r0 + allowance : b.r1 - allowance;
     std::size_t count = 0;
     while (sign * (goal - last) > merge_tolerance) {
@@ -174,7 +176,7 @@ Moves bar_moves(const Unit& unit, const Bar& bar, const ToolRow& row, double all
                                              " passes: the depth of cut is too small");
       double level = last + sign * row.depth_of_cut;
       if (sign * (goal - level) < 0) level = goal;
-      const Box work = work_between(bar.region, last, level, b.z0 - 1, b.z1 + 1);
+      const Box work = work_between(work_left, last, level, b.z0 - 1, b.z1 + 1);
       const double c = centre_at(bar, level, R);
       if (work.z1 - work.z0 > merge_tolerance && c >= 0) pass(way, bar, skin, c, safe, work, R);
       last = level;
@@ -184,20 +186,7 @@ Moves bar_moves(const Unit& unit, const Bar& bar, const ToolRow& row, double all
   return way.take();
 }
 
-/// The bore from the solid: a drill that stays clear of the product by the allowance.
-std::optional<TurningStep> pilot(const Bar& bar, double allowance) {
-  const Box b = box(bar.region);
-  if (b.r0 > merge_tolerance) return std::nullopt;
-  const Box on_axis = box(intersection_of(bar.region, rectangle(0, 1e-3, b.z0, b.z1)));
-  if (on_axis.z1 - on_axis.z0 < merge_tolerance) return std::nullopt;
-  double narrowest = b.r1;
-  for (const Segment& row : limit_of(bar.region, Limit::Greatest)) {
-    if (std::abs(row.end.z - row.start.z) < merge_tolerance) continue;
-    const double low = std::min(row.start.r, row.end.r);
-    if (low > 10 * merge_tolerance) narrowest = std::min(narrowest, low);
-  }
-  const double diameter = std::floor(2 * (narrowest - allowance) * 2) / 2;  // half millimetres
-  if (diameter < 1) return std::nullopt;
+TurningStep pilot_of(const Bar& bar, const Box& on_axis, double diameter, double allowance) {
   TurningStep step;
   step.kind = TurningStep::Kind::Drill;
   step.approach = bar.way > 0 ? Approach::Front : Approach::Back;
@@ -219,10 +208,32 @@ std::optional<TurningStep> pilot(const Bar& bar, double allowance) {
   return step;
 }
 
+/// The bore from the solid: a drill that stays clear of the product by the allowance.
+std::optional<TurningStep> pilot(const Bar& bar, double allowance) {
+  const Box b = box(bar.region);
+  if (b.r0 > merge_tolerance) return std::nullopt;
+  const Box on_axis = box(intersection_of(bar.region, rectangle(0, 1e-3, b.z0, b.z1)));
+  if (on_axis.z1 - on_axis.z0 < merge_tolerance) return std::nullopt;
+  double narrowest = b.r1;
+  for (const Segment& row : limit_of(bar.region, Limit::Greatest)) {
+    if (std::abs(row.end.z - row.start.z) < merge_tolerance) continue;
+    const double low = std::min(row.start.r, row.end.r);
+    if (low > 10 * merge_tolerance) narrowest = std::min(narrowest, low);
+  }
+  for (double diameter = std::floor(2 * (narrowest - allowance) * 2) / 2; diameter >= 1;
+       diameter -= 0.5) {  // half millimetres
+    TurningStep step = pilot_of(bar, on_axis, diameter, allowance);
+    TurningStep wider = step;
+    wider.drill_diameter += 2 * allowance;
+    if (volume(intersection_of(swept(wider), bar.filled)) < no_volume) return step;
+  }
+  return std::nullopt;
+}
+
 void turn_bar(const Program& program, const Unit& unit, TurningPaths& paths) {
   Bar bar{unit.region, filled_behind(program.product.shadow, unit.kind == UnitKind::BarOuter),
           unit.kind == UnitKind::BarOuter, unit.process == 1 ? 1 : -1};
-  double start_r = 0;
+  Region work_left = unit.region;
   for (std::size_t i = 0; i < unit.tools.size(); ++i) {
     check_row(unit, i);
     const ToolRow& row = unit.tools[i];
@@ -230,7 +241,7 @@ void turn_bar(const Program& program, const Unit& unit, TurningPaths& paths) {
     const double allowance = i + 1 < unit.tools.size() ? row.finish_allowance : 0;
     if (is_rough && !bar.is_outer) {
       if (std::optional<TurningStep> drill = pilot(bar, allowance)) {
-        start_r = drill->drill_diameter / 2;
+        work_left = difference_of(unit.region, swept(*drill));
         paths.steps.push_back(std::move(*drill));
       }
     }
@@ -238,7 +249,7 @@ void turn_bar(const Program& program, const Unit& unit, TurningPaths& paths) {
     step.tool = row;
     step.approach = bar.is_outer ? Approach::Outer : Approach::Inner;
     step.allowance = allowance;
-    step.moves = bar_moves(unit, bar, row, allowance, start_r, program.stock, is_rough);
+    step.moves = bar_moves(unit, bar, work_left, row, allowance, program.stock, is_rough);
     paths.steps.push_back(std::move(step));
   }
   const Box b = box(unit.region);

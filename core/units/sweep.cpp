@@ -120,8 +120,12 @@ void add(std::vector<Region>& parts, const Tool& tool, const Segment& path) {
   if (tool.R > merge_tolerance) parts.push_back(arc_band(path, tool.R));
   const int n =
       std::max(1, static_cast<int>(std::ceil(length(path) / path.arc->radius / chord_angle)));
+  // Chords of the way cut the corner: the shank is narrower by that.
+  Tool shank = tool;
+  const double turn = length(path) / path.arc->radius / n;
+  shank.R = std::max(0.0, tool.R - path.arc->radius * (1 - std::cos(turn / 2)));
   for (int i = 0; i < n; ++i)
-    add_line(parts, tool, point_at(path, static_cast<double>(i) / n),
+    add_line(parts, shank, point_at(path, static_cast<double>(i) / n),
              point_at(path, static_cast<double>(i + 1) / n));
 }
 
