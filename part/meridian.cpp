@@ -110,6 +110,24 @@ std::vector<std::array<double, 2>> reached(const Placed& part, const Face& face,
   return merged;
 }
 
+/// A face of a sphere is in one piece and may cover a pole without an edge there: the solid then
+/// ends at the sphere.
+std::vector<std::array<double, 2>> with_poles(const Placed& part, const Face& face, double R,
+                                              double zc,
+                                              const std::vector<std::array<double, 2>>& steps) {
+  if (steps.empty()) return {};
+  std::array<double, 2> all = steps.front();
+  for (const auto& step : steps) all = {std::min(all[0], step[0]), std::max(all[1], step[1])};
+  const auto is_covered = [&](double pole) {
+    const double shy = 1e-3 * R;
+    return part.contains({0, 0, zc + pole * (R - shy)}) == (face.side > 0) &&
+           part.contains({0, 0, zc + pole * (R + shy)}) == (face.side < 0);
+  };
+  if (all[0] > -pi / 2 && is_covered(-1)) all[0] = -pi / 2;
+  if (all[1] < pi / 2 && is_covered(1)) all[1] = pi / 2;
+  return {all};
+}
+
 /// Half `side` of the circle about (R, zc) between two angles.
 void add_half(int number, double face_side, const Point& centre, double tube, int side, double v0,
               double v1, std::vector<Meridian>& found) {
@@ -143,7 +161,9 @@ void add_tube(const Placed& part, const Face& face, int number, std::vector<Meri
     if (std::abs(off) > 1e-3) R = -R;
   }
   const Point centre{R, s.origin.z()};
-  for (const auto& [v0, v1] : reached(part, face, R, centre.z)) {
+  std::vector<std::array<double, 2>> steps = reached(part, face, R, centre.z);
+  if (is_sphere) steps = with_poles(part, face, tube, centre.z, steps);
+  for (const auto& [v0, v1] : steps) {
     for (const double turn : {0.0, -2 * pi}) {
       add_half(number, face.side, centre, tube, 1, v0 + turn, v1 + turn, found);
       if (R > 0) add_half(number, face.side, centre, tube, -1, v0 + turn, v1 + turn, found);

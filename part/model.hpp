@@ -68,6 +68,7 @@ struct Model {
   std::vector<Edge> edges;
   std::vector<Eigen::Vector3d> vertices;
   double volume = 0;                              ///< [mm^3]
+  bool has_cavity = false;                        ///< more than one closed skin
   Eigen::Vector3d low = Eigen::Vector3d::Zero();  ///< extents of vertices and edge points
   Eigen::Vector3d high = Eigen::Vector3d::Zero();
 };

@@ -72,6 +72,7 @@ Model moved(const geometry::Frame& frame, const Model& model) {
   Model result;
   result.name = model.name;
   result.volume = model.volume;
+  result.has_cavity = model.has_cavity;
   for (const Face& face : model.faces) result.faces.push_back(moved(frame, face));
   for (const Edge& edge : model.edges) result.edges.push_back(moved(frame, edge));
   for (const Eigen::Vector3d& vertex : model.vertices)

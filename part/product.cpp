@@ -10,6 +10,7 @@
 #include "part/features.hpp"
 #include "part/shadow.hpp"
 #include "part/step.hpp"
+#include "part/voids.hpp"
 
 namespace ridgeline::part {
 namespace {
@@ -175,8 +176,10 @@ units::Product product_of(const Candidate& one, const std::optional<GivenAxis>& 
   units::Product product;
   product.name = model.name;
   product.volume = model.volume;
-  product.shadow = shadow_of(one);
-  const double whole = units::volume(product.shadow);
+  Filled filled = without_voids(shadow_of(one), model.has_cavity);
+  product.shadow = std::move(filled.section);
+  double whole = units::volume(product.shadow);  // of what the turned faces bound
+  for (const units::Remainder& one_void : filled.voids) whole -= one_void.volume;
   if (!given && !(model.volume > least_fill * whole)) {
     throw Error(ErrorCode::NotTurned,
                 "the part is not turned: it fills " + text(100 * model.volume / whole) +
@@ -202,6 +205,10 @@ units::Product product_of(const Candidate& one, const std::optional<GivenAxis>& 
   product.holes = std::move(features.holes);
   product.faces = std::move(features.faces);
   product.remainders = std::move(features.remainders);
+  for (units::Remainder& one_void : filled.voids) {
+    one_void.name = "R" + std::to_string(product.remainders.size() + 1);
+    product.remainders.push_back(std::move(one_void));
+  }
   return product;
 }
 
@@ -232,7 +239,10 @@ TurnedPart read_product(std::string_view step, const std::optional<GivenAxis>& a
 }
 
 units::Region read_stock(std::string_view step) {
-  return guarded([&] { return shadow_of(chosen(read_step(step), {})); });
+  return guarded([&] {
+    const Candidate one = chosen(read_step(step), {});
+    return without_voids(shadow_of(one), one.part.model().has_cavity).section;
+  });
 }
 
 }  // namespace ridgeline::part

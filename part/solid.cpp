@@ -100,6 +100,17 @@ std::vector<Sample> samples_of(const TopoDS_Face& face, const BRepAdaptor_Surfac
   return samples;
 }
 
+/// A face on the other nappe of its cone, beyond the apex: the same cone from a place of the face.
+Surface on_nappe_of(const Eigen::Vector3d& point, Surface cone) {
+  const double along = (point - cone.origin).dot(cone.axis);
+  const double radius = cone.radius + along * std::tan(cone.half_angle);
+  if (radius >= 0) return cone;
+  cone.origin += along * cone.axis;
+  cone.radius = -radius;
+  cone.half_angle = -cone.half_angle;
+  return cone;
+}
+
 Face face_of(const TopoDS_Face& shape) {
   Face face;
   const BRepAdaptor_Surface surface(shape);
@@ -109,6 +120,8 @@ Face face_of(const TopoDS_Face& shape) {
   if (is_free) {
     if (const std::optional<Surface> found = recognised(face.samples)) face.surface = *found;
   }
+  if (face.surface.kind == SurfaceKind::Cone && !face.samples.empty())
+    face.surface = on_nappe_of(face.samples.front().point, face.surface);
   integrate(shape, face);
   if (face.surface.kind == SurfaceKind::Plane) {
     face.side = face.normal_integral.dot(face.surface.axis) < 0 ? -1 : 1;
@@ -181,6 +194,7 @@ public:
 
   Model run() {
     model_.name = shape_.name;
+    model_.has_cavity = shape_.solid.NbChildren() > 1;
     for (int i = 1; i <= shape_.vertices.Extent(); ++i)
       model_.vertices.push_back(vector(BRep_Tool::Pnt(TopoDS::Vertex(shape_.vertices(i)))));
     for (int i = 1; i <= shape_.edges.Extent(); ++i) {

@@ -22,9 +22,10 @@ private:
   std::deque<std::string> texts_;
 };
 
+/// Cyclone DDS drops a sample with an enumerator beyond the last.
 template <class T>
-T enumerator(Input& input) {
-  return static_cast<T>(input.number<std::uint8_t>());
+T up_to(T last, Input& input) {
+  return static_cast<T>(input.number<std::uint8_t>() % (static_cast<unsigned>(last) + 1));
 }
 
 void fill(Input& input, Texts& texts, std::vector<double>& angles, ridgeline_wire_ChamferJob& job) {
@@ -34,14 +35,14 @@ void fill(Input& input, Texts& texts, std::vector<double>& angles, ridgeline_wir
   job.tool_axis = texts.take(input);
   job.dialect = texts.take(input);
   job.work_offset = texts.take(input);
-  job.edge = enumerator<ridgeline_wire_EdgeKind>(input);
-  job.side = enumerator<ridgeline_wire_SideKind>(input);
-  job.width_kind = enumerator<ridgeline_wire_WidthKind>(input);
-  job.method = enumerator<ridgeline_wire_MethodKind>(input);
-  job.direction = enumerator<ridgeline_wire_DirectionKind>(input);
-  job.feed_at = enumerator<ridgeline_wire_FeedKind>(input);
-  job.positioning = enumerator<ridgeline_wire_PositioningKind>(input);
-  job.control_point = enumerator<ridgeline_wire_ControlKind>(input);
+  job.edge = up_to(ridgeline_wire_EDGE_OUTER, input);
+  job.side = up_to(ridgeline_wire_SIDE_EXIT, input);
+  job.width_kind = up_to(ridgeline_wire_WIDTH_FROM_CUTTING_AMOUNT, input);
+  job.method = up_to(ridgeline_wire_METHOD_SECTION, input);
+  job.direction = up_to(ridgeline_wire_DIRECTION_CONVENTIONAL, input);
+  job.feed_at = up_to(ridgeline_wire_FEED_AT_CENTRE, input);
+  job.positioning = up_to(ridgeline_wire_POSITIONING_INCREMENTAL, input);
+  job.control_point = up_to(ridgeline_wire_CONTROL_CENTRE, input);
   job.given = input.number<std::uint32_t>();
   job.points = input.number<std::uint32_t>();
   job.passes = input.number<std::uint32_t>();
@@ -67,7 +68,7 @@ void take_request(Input& input) {
   sample.header.requestId = wire::identity({{}, input.number<std::uint64_t>()});
   wire::copy(input.text(), sample.client);
   wire::copy(input.text(), sample.format);
-  sample.call._d = enumerator<ridgeline_wire_Operation>(input);
+  sample.call._d = up_to(ridgeline_wire_OPERATION_ECHO, input);
   if (sample.call._d == ridgeline_wire_OPERATION_CHAMFER)
     fill(input, texts, angles, sample.call._u.chamfer);
   else

@@ -212,6 +212,25 @@ std::vector<BadJob> bad_jobs() {
   };
 }
 
+// A barrel: the middle of its arc, radius 60, lies 50 mm beyond the axis. pi times the integral of
+// (sqrt(3600 - t^2) - 50)^2 from -20 to 20.
+TEST(UnitsJob, TakesAnArcAboutAMiddleBeyondTheAxis) {
+  const double r = std::sqrt(3200.0) - 50;
+  const auto line = [](double x0, double z0, double x1, double z1) {
+    return Json{{"pattern", "line"}, {"start", {x0, z0}}, {"end", {x1, z1}}};
+  };
+  const Json arc = {{"pattern", "arc"}, {"start", {r, 40}},    {"end", {r, 0}},
+                    {"radius", 60},     {"centre", {-50, 20}}, {"sense", "ccw"}};
+  const Json shape = {line(0, 0, 0, 40), line(0, 40, r, 40), arc, line(r, 0, 0, 0)};
+  const Json program = run({{"job", "units"}, {"product", {{"shape", Json::array({shape})}}}});
+  ASSERT_EQ(program["status"], "ok") << program.dump().substr(0, 400);
+  const double volume = M_PI * (6100 * 40 - 2 * 8000 / 3.0 -
+                                100 * (20 * std::sqrt(3200.0) + 3600 * std::asin(1 / 3.0)));
+  EXPECT_NEAR(program["volumes"]["product"].get<double>(), volume, 1e-9 * volume);
+  EXPECT_NEAR(program["volumes"]["left"].get<double>(), 0, 1e-9);
+  EXPECT_EQ(program["volumes"]["overlap_undeclared"].get<double>(), 0);
+}
+
 class BadUnitsJob : public testing::TestWithParam<BadJob> {};
 
 TEST_P(BadUnitsJob, IsRefusedByName) {

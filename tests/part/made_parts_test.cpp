@@ -11,48 +11,24 @@
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
-#include <BRep_Builder.hxx>
 #include <GeomAPI_PointsToBSpline.hxx>
 #include <Geom_BSplineCurve.hxx>
-#include <Interface_Static.hxx>
-#include <STEPControl_Writer.hxx>
 #include <TColgp_Array1OfPnt.hxx>
-#include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Wire.hxx>
 #include <cmath>
-#include <fstream>
 #include <gp_Ax2.hxx>
 #include <numbers>
-#include <sstream>
 
 #include "core/base/error.hpp"
 #include "part/product.hpp"
 #include "part/step.hpp"
 #include "tests/part/parts.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/part/written.hpp"
 
 namespace ridgeline::part {
 namespace {
-
-std::string step_of(const std::vector<TopoDS_Shape>& shapes, const char* unit = "MM") {
-  prepare();
-  Interface_Static::SetCVal("write.step.unit", unit);
-  TopoDS_Compound compound;
-  BRep_Builder builder;
-  builder.MakeCompound(compound);
-  for (const TopoDS_Shape& shape : shapes) builder.Add(compound, shape);
-  STEPControl_Writer writer;
-  writer.Transfer(shapes.size() == 1 ? shapes.front() : TopoDS_Shape(compound), STEPControl_AsIs);
-  Interface_Static::SetCVal("write.step.unit", "MM");
-  const TemporaryFolder folder;
-  writer.Write(folder.file("part.step").c_str());
-  std::ifstream in(folder / "part.step", std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 TopoDS_Shape cylinder(double r, double l, double x = 0) {
   return BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(x, 0, 0), gp_Dir(0, 0, 1)), r, l).Shape();
