@@ -132,9 +132,9 @@ export function nearest(values, v) {
   return best;
 }
 
-// The nearest index that has a value.
+// The nearest index that has a value, unless that is far: some series have one only at every so many places.
 function known(values, index) {
-  for (let k = 0; k < values.length; ++k) {
+  for (let k = 0; k <= Math.max(1, values.length / 100); ++k) {
     if (Number.isFinite(values[index - k])) return index - k;
     if (Number.isFinite(values[index + k])) return index + k;
   }

@@ -143,6 +143,7 @@ document.addEventListener('keydown', (event) => {
 });
 $('cutaway').hidden = !view?.hasCutaway;
 for (const id of ['play', 'speed']) $(id).hidden = !view;
+$('hint').hidden = Boolean(view);
 $('coloring').hidden = colorings.length === 0;
 
 window.ridgeline = {

@@ -1,9 +1,9 @@
 // The half section: stock, product and units, Z to the right and X up.
 import {pairsOf} from './solid.js';
 
-const space = {left: 44, right: 14, top: 14, bottom: 42};
+const space = {left: 58, right: 14, top: 14, bottom: 42};
 
-const number = (v) => String(Number(v.toPrecision(6)));
+const number = (v) => String(Number(v.toPrecision(5)));
 
 /** Draws data.units into `parent`; `choose(number)` hears a click on a unit. Returns mark(number, done). */
 export function drawSection(parent, {box, stock, product, splits, list}, choose) {

@@ -55,8 +55,8 @@ export function makeStage(host, {frame, view, up}) {
     const {centre, size} = frame;
     const narrow = Math.max(1, 1 / camera.aspect);  // a phone is higher than wide
     camera.position.copy(centre).addScaledVector(new THREE.Vector3(...view).normalize(), 2.6 * size * narrow);
-    camera.near = size / 500;
-    camera.far = size * 100;
+    camera.near = size / 200;
+    camera.far = size * 50;
     camera.updateProjectionMatrix();
     orbit.target.copy(centre);
     orbit.update();

@@ -70,8 +70,9 @@ export function unitsView({host, picture, tree}, data, told) {
 
   const body = surface(0xb6bec9);
   const cavity = new THREE.Color(0x1f2937);
+  // Units overlap where the program says so: one of them is nearer by a few steps of the depth.
   const materials = list.map((unit, i) => surface(colorOf(unit.hue), {
-    transparent: true, polygonOffset: true, polygonOffsetFactor: -1 - (i % 8), polygonOffsetUnits: -1}));
+    transparent: true, polygonOffset: true, polygonOffsetUnits: -1 - (i % 8)}));
   let solids = [];
   function build() {
     for (const old of stage.scene.children.filter((child) => child.userData.solid)) stage.scene.remove(old);
