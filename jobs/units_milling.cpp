@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -8,6 +9,7 @@
 #include "core/units/offset.hpp"
 #include "core/units/overlay.hpp"
 #include "jobs/units_nc.hpp"
+#include "jobs/units_tilted.hpp"
 
 namespace ridgeline::jobs {
 namespace {
@@ -77,9 +79,10 @@ std::optional<LatheHole> placed(const Hole& hole, const LatheFrame& frame, doubl
 /// The plane of a milled bottom as the machine sees it: a to the right, b up, h towards the tool.
 struct Plane {
   bool is_radial = true;
-  double c = 0;      ///< spindle angle [degrees]
-  Vector3d a, b, h;  ///< unit, machine frame
-  double shift = 0;  ///< of b into the half plane of regions
+  double c = 0;                    ///< spindle angle [degrees]
+  Vector3d a, b, h;                ///< unit, machine frame
+  double shift = 0;                ///< of b into the half plane of regions
+  std::array<double, 2> origin{};  ///< along a and b: what coordinates count from
 
   Point in(const Vector3d& p) const { return {p.dot(b) + shift, p.dot(a)}; }
 };
@@ -201,12 +204,12 @@ private:
     LatheMove move;
     move.kind = kind;
     move.feed = feed;
-    const double b = p.r - plane_.shift;
+    const double b = p.r - plane_.shift - plane_.origin[1];
     if (plane_.is_radial) {
       move.z = p.z;
       move.x = bottom_ + height;
     } else {
-      move.x = p.z;
+      move.x = p.z - plane_.origin[0];
       move.z = bottom_ + height;
     }
     move.y = b;
@@ -252,9 +255,21 @@ void mill_level(Miller& miller, const Region& centres, double height, double top
   }
 }
 
+/// The plane, or a note that says why the unit has no path.
+std::optional<TiltedPlane> in_tilted_plane(const Unit& unit, Tilt tilt, nc::LatheControl control,
+                                           std::vector<std::string>& notes) {
+  std::string why = std::move(tilt.why);
+  if (tilt.plane && control == nc::LatheControl::LinuxCnc)
+    why = "it needs a tilted work plane, which LinuxCNC does not have";
+  if (why.empty()) return tilt.plane;
+  notes.push_back(fmt::format("unit {}: {}; no path", unit.number, why));
+  return std::nullopt;
+}
+
 }  // namespace
 
-void add_hole_steps(const Unit& unit, const LatheFrame& frame, LatheProgram& program,
+void add_hole_steps(const Unit& unit, const LatheFrame& frame, const Region& material,
+                    nc::LatheControl control, LatheProgram& program,
                     std::vector<std::string>& notes) {
   const Hole& hole = *unit.hole;
   if (unit.tools.empty()) {
@@ -265,15 +280,24 @@ void add_hole_steps(const Unit& unit, const LatheFrame& frame, LatheProgram& pro
                            ? 0
                            : hole.diameter / 2 / std::tan(hole.point_angle / 2);
   const double over = hole.bottom == units::HoleBottom::Through ? breakthrough : 0;
-  if (!placed(hole, frame, 0)) {
-    notes.push_back(fmt::format(
-        "unit {}: the hole is neither along nor across the axis: it needs a tilting head, no path",
-        unit.number));
-    return;
+  const bool is_oblique = !placed(hole, frame, 0);
+  std::optional<TiltedPlane> tilted;
+  if (is_oblique) {
+    Tilt tilt = tilted_plane(frame.point(hole.start), -frame.direction(hole.direction), program);
+    tilted = in_tilted_plane(unit, std::move(tilt), control, notes);
+    if (!tilted) return;
   }
   const auto add = [&](const ToolRow& row, double depth, double diameter) {
     LatheStep step = driven(unit, row, "HOLE", diameter);
-    LatheHole at = *placed(hole, frame, depth);
+    LatheHole at;
+    if (tilted) {
+      step.plane = tilted->plane;
+      at.z = tilted->point(frame.point(hole.start)).z();
+      at.end = at.z - depth;
+      at.clear = clear + clear_height(material, hole.start, -hole.direction, diameter);
+    } else {
+      at = *placed(hole, frame, depth);
+    }
     at.peck = std::max(diameter, 0.1);
     step.holes.push_back(at);
     program.steps.push_back(std::move(step));
@@ -294,14 +318,22 @@ void add_hole_steps(const Unit& unit, const LatheFrame& frame, LatheProgram& pro
 }
 
 void add_mill_steps(const units::Product& product, const Unit& unit, const LatheFrame& frame,
-                    LatheProgram& program, std::vector<std::string>& notes) {
+                    nc::LatheControl control, LatheProgram& program,
+                    std::vector<std::string>& notes) {
   const MilledFace& face = *unit.face;
   const auto give_up = [&](const std::string& why) {
     notes.push_back(fmt::format("unit {}: {}; no path", unit.number, why));
   };
   std::optional<Plane> plane = plane_of(face, frame);
-  if (!plane) return give_up("its bottom is neither along nor across the axis");
   if (face.outline.empty()) return give_up("its outline is not known");
+  std::optional<TiltedPlane> tilted;
+  if (!plane) {
+    tilted = in_tilted_plane(
+        unit, tilted_plane(frame.point(face.point), frame.direction(face.normal), program), control,
+        notes);
+    if (!tilted) return;
+    plane = Plane{false, 0, tilted->x, tilted->y, tilted->z, 0};
+  }
   if (unit.tools.empty()) return give_up("it has no tool");
   const ToolRow& row = unit.tools.front();
   const double D = row.nominal_diameter;
@@ -314,10 +346,18 @@ void add_mill_steps(const units::Product& product, const Unit& unit, const Lathe
     return give_up(fmt::format("a cutter of diameter {:.6g} does not enter it", D));
   LatheStep step = driven(unit, row, "FACE MILL", D);
   step.c = plane->is_radial ? plane->c : 0;
-  const double bottom = frame.point(face.point).dot(plane->h);
+  double bottom = frame.point(face.point).dot(plane->h);
+  double level = plane->is_radial ? program.safe_x : program.safe_z;
+  if (tilted) {
+    step.plane = tilted->plane;
+    step.c.reset();
+    plane->origin = {tilted->origin.dot(plane->a), tilted->origin.dot(plane->b)};
+    bottom = tilted->point(frame.point(face.point)).z();
+    level = tilted->plane.level;
+  }
   Miller miller(*plane, bottom, step.feed, step);
   const Point first = units::contours(centres).front().front().start;
-  miller.rapid(first, (plane->is_radial ? program.safe_x : program.safe_z) - bottom);
+  miller.rapid(first, level - bottom);
   const int levels = std::max(1, static_cast<int>(std::ceil(face.depth / row.depth_of_cut - 1e-9)));
   for (int i = levels - 1; i >= 0; --i)
     mill_level(miller, centres, face.depth * i / levels, face.depth + clear, D, step.feed);

@@ -8,6 +8,7 @@
 
 #include "core/units/figure.hpp"
 #include "core/units/names.hpp"
+#include "core/units/overlay.hpp"
 #include "core/units/passes.hpp"
 #include "jobs/units_program.hpp"
 
@@ -151,6 +152,14 @@ Json add_turned(const units::Program& program, const Unit& unit, const LatheFram
           {"left_thickness", check.thickness}};
 }
 
+/// What turning has left of the stock before a unit.
+units::Region standing(const units::Program& program, const Unit& unit) {
+  std::vector<units::Region> cut;
+  for (const Unit& one : program.units)
+    if (one.number < unit.number && units::is_turned(one)) cut.push_back(one.region);
+  return units::difference_of(program.stock, units::union_of(cut));
+}
+
 struct Written {
   LatheProgram program;
   Json units = Json::array();
@@ -177,9 +186,9 @@ Written written(const units::Program& program, int process, const Output& output
     else if (units::is_turned(unit))
       out.units.push_back(add_turned(program, unit, frame, out.program, out.notes));
     else if (unit.kind == units::UnitKind::Hole)
-      add_hole_steps(unit, frame, out.program, out.notes);
+      add_hole_steps(unit, frame, standing(program, unit), output.control, out.program, out.notes);
     else
-      add_mill_steps(program.product, unit, frame, out.program, out.notes);
+      add_mill_steps(program.product, unit, frame, output.control, out.program, out.notes);
   }
   return out;
 }

@@ -28,10 +28,13 @@ struct LatheFrame {
 };
 
 /// Holes beside the axis and milled faces, with driven tools; notes say what is not written.
-void add_hole_steps(const units::Unit& unit, const LatheFrame& frame, nc::LatheProgram& program,
+/// `material` is what stands when the unit begins, turned about the axis.
+void add_hole_steps(const units::Unit& unit, const LatheFrame& frame, const units::Region& material,
+                    nc::LatheControl control, nc::LatheProgram& program,
                     std::vector<std::string>& notes);
 void add_mill_steps(const units::Product& product, const units::Unit& unit, const LatheFrame& frame,
-                    nc::LatheProgram& program, std::vector<std::string>& notes);
+                    nc::LatheControl control, nc::LatheProgram& program,
+                    std::vector<std::string>& notes);
 
 /// "output": {"dialect", "program", "process", "top_speed"}.
 Answer units_nc(const units::Program& program, const std::optional<Value>& output,

@@ -83,12 +83,46 @@ private:
     at_z_ = program_.safe_z;
     if (step.mode == LatheStep::Mode::Milling) at_y_ = 0;
     if (step.c) line("G0 " + word('C', *step.c, 3));
-    for (const LatheMove& move : step.moves) write(step, move);
-    write_holes(step);
+    if (step.plane) {
+      write_in_plane(step, *step.plane);
+    } else {
+      for (const LatheMove& move : step.moves) write(step, move);
+      write_holes(step);
+    }
     line("G0 " + word('X', 2 * program_.safe_x, 3));
     if (at_y_.value_or(0) != 0) line("G0 Y0.");
     line("G0 " + word('Z', program_.safe_z, 3));
     if (step.mode == LatheStep::Mode::Milling) line(is_fanuc_ ? "M15" : "M5");
+  }
+
+  /// The head swivels where nothing stands: outside of X and Z. Rz(90) Rx(angle) Rz(-90) is a turn
+  /// about Y; the origin lies at X 0, so that it does not matter whether X is a diameter.
+  void write_in_plane(const LatheStep& step, const LathePlane& plane) {
+    if (!is_fanuc_) {
+      throw Error(ErrorCode::Unsupported, "LinuxCNC has no tilted work plane: " + step.comment);
+    }
+    if (!step.moves.empty()) line(comment("in this plane x is a radius"));
+    line("G0 " + word('C', plane.c, 4));
+    line("G68.2 X0. " + word('Y', plane.y) + " " + word('Z', plane.z) + " I90. " +
+         word('J', plane.angle, 3) + " K-90.");
+    line("G53.1");
+    line("G0 " + word('Z', plane.level));
+    at_x_ = at_y_ = std::nullopt;
+    at_z_ = plane.level;
+    motion_ = {};
+    for (const LatheMove& move : step.moves) write(step, move);
+    for (const LatheHole& hole : step.holes) {
+      line("G0 X0. Y0.");
+      line("G0 " + word('Z', hole.z + hole.clear));
+      line("G83 " + word('Z', hole.end) + " R0. Q" +
+           std::to_string(std::lround(hole.peck * to_millimetre_grid)) + " " +
+           word('F', step.feed, 1) + " M88");
+      line("G80 M89");
+    }
+    line("G0 " + word('Z', plane.level));
+    line("G69.1");
+    line("G0 B0.");
+    at_y_ = 1;  // back to 0 with the rest
   }
 
   void spindle(const LatheStep& step) {
@@ -109,12 +143,13 @@ private:
   }
 
   void write(const LatheStep& step, const LatheMove& move) {
+    const double scale = step.plane ? 1 : 2;  // X is a diameter
     std::string text;
     std::string code = "G1";
     if (move.kind == LatheMove::Kind::Rapid) code = "G0";
     const bool is_arc = move.kind == LatheMove::Kind::Arc && !is_short(move);
     if (is_arc) code = move.is_clockwise ? "G2" : "G3";
-    if (is_arc || !is_at(at_x_, move.x)) text += " " + word('X', 2 * move.x);
+    if (is_arc || !is_at(at_x_, move.x)) text += " " + word('X', scale * move.x);
     if (move.y && !is_at(at_y_, *move.y)) text += " " + word('Y', *move.y);
     if (is_arc || !is_at(at_z_, move.z)) text += " " + word('Z', move.z);
     if (text.empty()) return;

@@ -30,6 +30,16 @@ struct LatheHole {
   double clear = 2;  ///< distance in front of the work
 };
 
+/// A work plane that a swivelling head turns to: the spindle stands at c, the plane's X and Z are
+/// the machine's turned about Y by `angle` from Z towards X. Within it X is a radius.
+struct LathePlane {
+  double c = 0;      ///< degrees
+  double angle = 0;  ///< degrees, above 0 and below 90, a multiple of 0.001
+  double y = 0;      ///< its origin, at X 0
+  double z = 0;
+  double level = 0;  ///< Z in the plane at which the tool moves clear of everything
+};
+
 /// One tool at work.
 struct LatheStep {
   int tool = 1;
@@ -39,6 +49,7 @@ struct LatheStep {
   double speed = 0;                 ///< m/min, or rev/min
   double feed = 0;                  ///< of holes: mm a revolution (turning) or mm/min
   std::optional<double> c;          ///< degrees at which the spindle stands while milling
+  std::optional<LathePlane> plane;  ///< moves and holes along Z are in it; FANUC alone
   std::vector<LatheMove> moves;
   std::vector<LatheHole> holes;
 };
@@ -58,7 +69,9 @@ enum class LatheControl { Fanuc, LinuxCnc };
 /// The text of a program. FANUC: lathe G-code system A (G50, G96/G97, G98/G99), drilling cycles G83
 /// and G87, driven tools with M13 and the C axis. LinuxCNC: lathe mode with G7, G95/G94, the same
 /// motion, drilling along Z by G83 in G17, along X by plain moves. Coordinates to 3 decimals,
-/// diameters to 3. Throws Error{BadInput} for a number that is no program number.
+/// diameters to 3. A step in a tilted plane: G68.2 and G53.1, G69.1 after it, B0. Throws
+/// Error{BadInput} for a number that is no program number, Error{Unsupported} for a tilted plane on
+/// LinuxCNC.
 std::string lathe_text(const LatheProgram& program, LatheControl control);
 
 }  // namespace ridgeline::nc
