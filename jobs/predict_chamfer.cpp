@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/chamfer/job.hpp"
 #include "core/cutting/wedge.hpp"
@@ -55,13 +56,17 @@ Eigen::Vector3d to_centre(const ChamferJob& job, const Eigen::Vector3d& tool_axi
   return tool::cutting_radius(job.job.tool) * tool_axis;
 }
 
-ChamferPath path_of(const ChamferJob& job, double S, const cutting::Cutter& cutter,
+/// The last pass of a job, or the one before its spring pass.
+enum class Pass { Last, BeforeSpring };
+
+ChamferPath path_of(const ChamferJob& job, Pass pass, double S, const cutting::Cutter& cutter,
                     const Progress& progress) {
   ChamferPath path;
   path.result = chamfer::solve(job.job, progress);
   const chamfer::Result& result = path.result;
   path.edge = subject_of(job, result.tool_axis).edge;
-  const std::vector<CutRange> passes = cut_ranges(result.motion);
+  std::vector<CutRange> passes = cut_ranges(result.motion);
+  if (pass == Pass::BeforeSpring && passes.size() > 1) passes.pop_back();
   if (passes.empty()) throw Error(ErrorCode::Internal, "a chamfer without a cut");
   path.cut = passes.back();
   std::vector<Eigen::Vector3d> earlier;
@@ -88,6 +93,31 @@ ChamferPath path_of(const ChamferJob& job, double S, const cutting::Cutter& cutt
     path.points.push_back(std::move(point));
   }
   return path;
+}
+
+/// The spring pass goes over what the pass before left: that stood off by its error, not where its
+/// path was. Where it was drawn in, and left nothing to cut, its own error stays, and its chatter
+/// where it chattered.
+ChamferPath spring_pass(const ChamferJob& job, const AlongJob& along, const ChamferPath& finish,
+                        const std::vector<cutting::StationError>& errors,
+                        const Progress& progress) {
+  ChamferPath path = path_of(job, Pass::Last, along.S(), along.course.cutter, progress);
+  for (std::size_t i = 0; i < path.points.size(); ++i) {
+    path.points[i].earlier_centre.reset();
+    if (errors[i].e)
+      path.points[i].earlier_centre = path.points[i].centre + *errors[i].e * finish.stations[i].n;
+    path.stations[i] = cutting::chamfer_station(path.edge, path.points[i], along.course.cutter.r);
+  }
+  return path;
+}
+
+void keep_finish(const std::vector<cutting::StationError>& finish,
+                 std::vector<cutting::StationError>& spring) {
+  for (std::size_t i = 0; i < spring.size(); ++i) {
+    if (!spring[i].e && finish[i].e) spring[i] = finish[i];
+    const std::optional<cutting::Stability>& told = finish[i].stability;
+    if (told && *told != cutting::Stability::Stable) spring[i].stability = told;
+  }
 }
 
 // Widths that the errors at the two borders leave, the tool moved as it was.
@@ -152,15 +182,21 @@ Answer predict_chamfer(Object& job, const Value& along, const Request& request) 
     chamfer_job.job.arcs = false;
     read.warnings.emplace_back("the path is predicted, and corrected, as straight blocks");
   }
-  if (chamfer_job.job.spring_pass)
+  const bool springs = chamfer_job.job.spring_pass;
+  if (springs && read.correct)
     refuse({.code = ErrorCode::Unsupported,
             .field = "/along/spring_pass",
             .value = "true",
-            .limit = "false: a spring pass cuts what deflection left, not what the path says"});
+            .limit = "false with \"correct\": a corrected path needs no spring pass"});
 
-  const ChamferPath path =
-      path_of(chamfer_job, read.S(), read.course.cutter, part_of(request.progress, 0, 0.1));
+  ChamferPath path = path_of(chamfer_job, springs ? Pass::BeforeSpring : Pass::Last, read.S(),
+                             read.course.cutter, part_of(request.progress, 0, 0.1));
   read.course.tool_axis = path.result.tool_axis;
+  std::vector<cutting::StationError> finish;
+  if (springs) {
+    finish = run_along(read, path.stations, part_of(request.progress, 0.1, 0.5)).before;
+    path = spring_pass(chamfer_job, read, path, finish, part_of(request.progress, 0.5, 0.55));
+  }
   PredictedPath predicted;
   predicted.kind = "chamfer";
   predicted.is_closed = true;
@@ -170,7 +206,9 @@ Answer predict_chamfer(Object& job, const Value& along, const Request& request) 
   const Eigen::Vector3d offset = to_centre(chamfer_job, path.result.tool_axis);
   for (const Eigen::Vector3d& centre : path.result.centres)
     predicted.position.push_back(centre - offset);
-  predicted.result = run_along(read, path.stations, part_of(request.progress, 0.1, 1));
+  predicted.result =
+      run_along(read, path.stations, part_of(request.progress, springs ? 0.55 : 0.1, 1));
+  if (springs) keep_finish(finish, predicted.result.before);
   predicted.width = widths(path, predicted.result.before);
 
   std::optional<nc::Program> program;
