@@ -45,6 +45,18 @@ TEST(Page, NeedsNothingFromTheNetwork) {
     EXPECT_EQ(page.find(reference), std::string::npos) << reference;
 }
 
+// Every move of a cycle but the first, from where the page begins, is a piece of its path.
+TEST(Page, OfACycleHoldsItsMotion) {
+  const std::string cycle = "clients/examples/cycles/taper.json";
+  const Json motion = ridgeline({"macro", "make", cycle, "--local"}).json().at("motion");
+  const Finished page = ridgeline({"macro", "make", cycle, "--local", "--format", "html"});
+  ASSERT_EQ(page.status, 0) << page.out.substr(0, 1000);
+  const Json drawn = data_of(page.out).at("motion");
+  EXPECT_EQ(drawn.at("start"), motion.front().at("to"));
+  EXPECT_EQ(drawn.at("kinds").size(), motion.size() - 1);  // lines alone
+  EXPECT_EQ(drawn.at("moves").back(), motion.size() - 1);
+}
+
 // What the list of the page shows is the program's, unit by unit.
 TEST(Page, OfUnitsHoldsEveryUnit) {
   const std::string job = "clients/examples/units_shaft.json";

@@ -137,7 +137,8 @@ if (data.units) Object.assign(keys, {ArrowDown: () => view.chooseBy(1), ArrowUp:
 document.addEventListener('keydown', (event) => {
   if (event.target instanceof HTMLInputElement || event.target instanceof HTMLSelectElement || event.ctrlKey || event.metaKey) return;
   const action = keys[event.key];
-  if (!action) return;
+  const isPressed = event.target instanceof HTMLButtonElement && event.key === ' ';  // the button's own
+  if (!action || isPressed) return;
   event.preventDefault();
   action();
 });

@@ -60,16 +60,17 @@ export function motionView(host, data, told) {
   return view;
 }
 
-// A colour a piece; pieces that the chart does not reach are grey.
+// A colour a piece: that of the chart's value where it ends; grey where the chart has none.
 function pieceColors(motion, line, chart) {
   if (!chart) return (piece) => moveColors[motion.names[motion.kinds[piece]]] ?? moveColors.cut;
   const {values} = chart.series[0];
-  const order = Array.from(values.keys()).filter((i) => Number.isFinite(values[i])).sort((a, b) => chart.at[a] - chart.at[b]);
+  const order = Array.from(values.keys()).sort((a, b) => chart.at[a] - chart.at[b]);
   const [low, high] = rangeOf(values);
+  const far = Math.floor(values.length / 100);  // some series have a value only at every so many places
   const slack = 1e-3;  // the path is drawn in float32 [mm]
   return (piece) => {
     const [from, to] = [line.lengths[piece], line.lengths[piece + 1]];
-    const isOutside = order.length === 0 || from > chart.at[order.at(-1)] + slack || to < chart.at[order[0]] - slack;
+    const isOutside = from > chart.at[order.at(-1)] + slack || to < chart.at[order[0]] - slack;
     if (isOutside || motion.names[motion.kinds[piece]] === 'rapid') return moveColors.rapid;
     let a = 0;
     let b = order.length - 1;
@@ -77,7 +78,8 @@ function pieceColors(motion, line, chart) {
       const middle = (a + b) >> 1;
       if (chart.at[order[middle]] < to - slack) a = middle + 1; else b = middle;
     }
-    return valueColor((values[order[a]] - low) / (high - low || 1));
+    const value = [...Array(2 * far + 1).keys()].map((k) => values[order[a + (k % 2 ? -1 : 1) * ((k + 1) >> 1)]]).find(Number.isFinite);
+    return value === undefined ? moveColors.rapid : valueColor((value - low) / (high - low || 1));
   };
 }
 
