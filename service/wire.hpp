@@ -89,5 +89,6 @@ void copy(std::string_view text, char (&bounded)[N]) {
 inline char* borrowed(const std::string& text) {
   return const_cast<char*>(text.c_str());
 }
+char* borrowed(std::string&& text) = delete;  ///< would be gone before the sample is written
 
 }  // namespace ridgeline::wire

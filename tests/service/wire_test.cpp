@@ -169,7 +169,8 @@ TEST(Assembler, RefusesSamplesThatDoNotFit) {
   expect_refused([](ridgeline_wire_Reply& sample) { sample.arrays._buffer[1].offset = 29; });
   expect_refused([](ridgeline_wire_Reply& sample) { sample.arrays._buffer[1].offset = ~0ULL; });
   expect_refused([](ridgeline_wire_Reply& sample) { sample.arrays._buffer[0].shape._length = 0; });
-  expect_refused([](ridgeline_wire_Reply& sample) { sample.document = borrowed("{]"); });
+  const std::string broken = "{]";
+  expect_refused([&](ridgeline_wire_Reply& sample) { sample.document = borrowed(broken); });
 }
 
 TEST(ChamferJob, AClearedStructAsksWithTheDefaults) {
