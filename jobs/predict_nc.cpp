@@ -111,10 +111,12 @@ Answer predict_nc(Object& job, const Value& along, const Request& request) {
   if (const std::optional<Value> normal = object.optional("normal"))
     work.normal = [n = normal->direction()](const Vector3d&) { return n; };
   const nc::Reading reading = nc::read(program);
-  if (reading.tool_axis && !reading.tool_axis->isApprox(Vector3d::UnitZ()))
+  if (reading.tool_axis) work.tool_axis = reading.tool_axis->normalized();
+  constexpr double most_tilt = 1e-6;  // sine of the axis above the level
+  if (!(work.tool_axis.z() > most_tilt))
     refuse({.code = ErrorCode::Unsupported,
             .field = "/along/program",
-            .limit = "a tool along Z: the stock is a height map"});
+            .limit = "a tool that comes from above: the stock is a height map"});
   work.motion = reading.motion;
   work.rpm = reading.spindle_speed;
   work.program = program_of(reading, number);

@@ -89,7 +89,7 @@ std::vector<Place> places_of(const WorkPath& work, const Vector3d& to_centre, do
       place.station.direction = chord / length;
       place.station.n = Vector3d::UnitZ();
       place.station.feed = move.feed / teeth_per_second;
-      place.cuts = !rapid && std::abs(place.station.direction.z()) < steepest;
+      place.cuts = !rapid && std::abs(place.station.direction.dot(work.tool_axis)) < steepest;
       place.move = m;
       place.way = way + length * i / parts;
       out.push_back(std::move(place));
@@ -189,7 +189,7 @@ std::vector<std::size_t> entries_of(const std::vector<Place>& places) {
 
 /// What the page shows beside the path: the stock as a box, the ball.
 nlohmann::json scene_of(const HeightMap& stock, const nlohmann::json& given, const tool::Tool& tool,
-                        const Vector3d& to_centre) {
+                        const Vector3d& tool_axis, const Vector3d& to_centre) {
   const auto [low, high] = std::ranges::minmax(stock.heights);
   const double floor = given.contains("min") ? given["min"][2].get<double>() : low;
   const Eigen::Vector2d far =
@@ -197,7 +197,7 @@ nlohmann::json scene_of(const HeightMap& stock, const nlohmann::json& given, con
   return {
       {"box",
        {{"min", {stock.origin.x(), stock.origin.y(), floor}}, {"max", {far.x(), far.y(), high}}}},
-      {"tool", page_tool(tool, Vector3d::UnitZ(), to_centre.z())}};
+      {"tool", page_tool(tool, tool_axis, to_centre.norm())}};
 }
 
 AlongResult run(AlongJob& job, const HeightMap& stock, const std::vector<Place>& places,
@@ -287,9 +287,14 @@ Answer predict_work(Object& job, Object& along, WorkPath work, const ResolvedToo
   if (read.correct && read.correct->by_borders)
     refuse({.field = "/correct/aim", .value = "width", .limit = "\"surface\" but for a chamfer"});
 
+  read.course.tool_axis = work.tool_axis;
+  if (read.correct && !work.tool_axis.isApprox(Vector3d::UnitZ()))
+    refuse({.code = ErrorCode::Unsupported,
+            .field = "/correct",
+            .limit = "a program whose tool stands along Z"});
   work.motion = path::linearised(work.motion, arc_tolerance);
   const Vector3d to_centre =
-      control == Control::Tip ? Vector3d(0, 0, radius) : Vector3d(Vector3d::Zero());
+      control == Control::Tip ? Vector3d(radius * work.tool_axis) : Vector3d(Vector3d::Zero());
   const double teeth_per_second = read.S() * cutting::teeth(read.course.cutter);
   std::vector<Place> places = places_of(work, to_centre, step, teeth_per_second);
   set_normals(work, places);
@@ -307,8 +312,8 @@ Answer predict_work(Object& job, Object& along, WorkPath work, const ResolvedToo
   if (request.format == "csv") answer.text = path_csv(path);
   if (request.format == "svg") answer.text = path_drawing(read, path);
   if (request.format == "html")
-    answer.text =
-        path_page(read, path, answer.document, scene_of(stock, given.json(), tool.tool, to_centre));
+    answer.text = path_page(read, path, answer.document,
+                            scene_of(stock, given.json(), tool.tool, work.tool_axis, to_centre));
   if (request.format == "nc") {
     nc::Program program = work.program;
     program.motion = corrected_motion(work, places, path.result.after, to_centre);

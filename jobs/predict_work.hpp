@@ -12,10 +12,11 @@
 namespace ridgeline::jobs {
 
 struct WorkPath {
-  std::string_view kind;      ///< "program", "cycle"
-  path::Motion motion;        ///< of the control point; the tool stands along Z
-  std::optional<double> rpm;  ///< spindle speed, if the path says one
-  nc::Program program;        ///< how the corrected motion is written
+  std::string_view kind;                                 ///< "program", "cycle"
+  path::Motion motion;                                   ///< of the control point
+  Eigen::Vector3d tool_axis = Eigen::Vector3d::UnitZ();  ///< tip to spindle
+  std::optional<double> rpm;                             ///< spindle speed, if the path says one
+  nc::Program program;                                   ///< how the corrected motion is written
   /// Normal of the wanted surface, towards the tool, for a ball centre.
   std::function<Eigen::Vector3d(const Eigen::Vector3d&)> normal;
 };

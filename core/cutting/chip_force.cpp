@@ -17,8 +17,7 @@ double value(const Term& term, const Curve& curve, const Eigen::Vector2d& U) {
 }
 
 Eigen::Vector3d on_map(const Stock& stock, const Eigen::Vector3d& P) {
-  const Eigen::Vector2d level = stock.map_axes * Eigen::Vector2d(P.head<2>());
-  return stock.map_origin + Eigen::Vector3d(level.x(), level.y(), P.z());
+  return stock.map_origin + stock.map_axes * P;
 }
 
 bool is_under_map(const Stock& stock, const Eigen::Vector3d& P) {

@@ -203,10 +203,9 @@ bool is_in_stock(const Scene& scene, const Eigen::Vector3d& P) {
     inside = inside || near;
   }
   if (!inside || !stock.map) return inside;
-  const Eigen::Vector2d p =
-      stock.map_origin.head<2>() + stock.map_axes * Eigen::Vector2d(P.head<2>());
-  const double height = P.z() + stock.map_origin.z();
-  return height <= greatest_height(*stock.map, p.x(), p.y(), reach);
+  const Eigen::Vector3d p = stock.map_origin + stock.map_axes * P;
+  const double sunk = reach * stock.map_axes.row(2).head<2>().norm();  // of a tilted tool
+  return p.z() - sunk <= greatest_height(*stock.map, p.x(), p.y(), reach);
 }
 
 // Samples from first to last, not wrapped.

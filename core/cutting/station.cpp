@@ -59,7 +59,7 @@ Cut cut_at(const Course& course, const Station& station) {
   if (station.stock.map) {
     cut.stock.map = station.stock.map;
     cut.stock.map_origin = station.centre + station.stock.map_origin;
-    cut.stock.map_axes = axes.topLeftCorner<2, 2>();
+    cut.stock.map_axes = axes;
   }
   return cut;
 }

@@ -40,7 +40,7 @@ struct Stock {
   std::vector<Round> grooves;
   std::shared_ptr<const HeightMap> map;                    ///< may be null
   Eigen::Vector3d map_origin = Eigen::Vector3d::Zero();    ///< O' in the frame of the map
-  Eigen::Matrix2d map_axes = Eigen::Matrix2d::Identity();  ///< X, Y of the cut in that frame
+  Eigen::Matrix3d map_axes = Eigen::Matrix3d::Identity();  ///< X, Y, Z of the cut in that frame
 };
 
 }  // namespace ridgeline::cutting

@@ -106,6 +106,29 @@ TEST(PredictProgram, WritesTheCorrectedProgram) {
 }
 
 // Bottom R of the oracle's cycle 15, in a block that leaves something on its wall and floor.
+// A work plane leaning by 20 degrees: the ball's centre stands off the tip along the leaning axis.
+TEST(PredictProgram, FollowsATiltedTool) {
+  Json job = program_job();
+  job.erase("correct");
+  job["along"]["program"] =
+      "%\nO1\nG21 G90 G17\nT12 M6\nS8000 M3\nG54\nG68.2 X0. Y0. Z0. I90. J20. K-90.\nG53.1\n"
+      "G0 G43 H12 Z20.\nG0 X0. Y-6.\nG0 Z5.\nG1 Z-0.1 F300\nG1 Y6. F800\nG0 Z20.\nG69\nM30\n%\n";
+  job["along"]["stock"] = {{"min", {-12, -12, -6}}, {"max", {12, 12, 0}}, {"cell", 0.2}};
+  job["along"]["step"] = 3;
+  const Json result = run(job);
+  ASSERT_EQ(result["status"], "ok") << result.dump().substr(0, 600);
+  ASSERT_GT(result["centre"].size(), 2U);
+  const double lean = 20 * 3.14159265358979 / 180, r = job["tool"]["radius"];
+  for (std::size_t i = 0; i < result["centre"].size(); ++i) {
+    const Json &centre = result["centre"][i], &tip = result["position"][i];
+    EXPECT_NEAR(centre[0].get<double>() - tip[0].get<double>(), r * std::sin(lean), 1e-9);
+    EXPECT_NEAR(centre[2].get<double>() - tip[2].get<double>(), r * std::cos(lean), 1e-9);
+    EXPECT_GT(result["force"][i][2].get<double>(), 0);
+  }
+  job["correct"] = true;
+  EXPECT_EQ(run(job)["error"]["field"], "/correct");
+}
+
 TEST(PredictCycle, TakesTheNormalsOfTheCycle) {
   std::ifstream in(RIDGELINE_TESTS "/oracle/cycles/15_bottomR_straight_1_ball.json");
   const Json oracle = Json::parse(in);

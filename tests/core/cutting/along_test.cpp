@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <numbers>
 
+#include "core/cutting/carve.hpp"
 #include "core/cutting/floquet.hpp"
 #include "tests/core/cutting/oracle_case.hpp"
 
@@ -37,6 +39,37 @@ TEST(Along, OneStationIsTheEngagement) {
   ASSERT_EQ(path.size(), 1U);
   EXPECT_NEAR(*path[0].e, *alone.e, 1e-12);
   EXPECT_EQ(path[0].loops, alone.loops);
+}
+
+// A flat block as a height map is what its top is as a plane, however the tool leans.
+TEST(Along, TiltedToolMeetsTheMapAsThePlane) {
+  Example example;
+  const double r = example.course.cutter.r;
+  Station plane = example.station;
+  plane.centre = {0, 0, 0.7 * r};
+  plane.direction = Eigen::Vector3d::UnitY();
+  plane.n = Eigen::Vector3d::UnitZ();
+  plane.stock = {};
+  plane.stock.faces = {HalfSpace{Eigen::Vector3d::UnitZ(), 0}};
+  Station map = plane;
+  map.stock = {};
+  map.stock.map = std::make_shared<HeightMap>(block_map({-20, -20, -9}, {20, 20, 0}, 0.5));
+  for (const Eigen::Vector3d& lean : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.4, 0, 0),
+                                      Eigen::Vector3d(0, -0.5, 0), Eigen::Vector3d(0.3, 0.6, 0)}) {
+    SCOPED_TRACE(testing::PrintToString(lean.transpose()));
+    example.course.tool_axis = (Eigen::Vector3d::UnitZ() + lean).normalized();
+    AlongOptions options;
+    options.iterate.alpha = 1e-8;
+    const auto by_plane = along(example.course, {plane}, example.compliance, example.S, options);
+    const auto by_map = along(example.course, {map}, example.compliance, example.S, options);
+    EXPECT_GT(by_plane[0].peak_force.norm(), 1);
+    EXPECT_LT((by_plane[0].peak_force - by_map[0].peak_force).norm(),
+              0.02 * by_plane[0].peak_force.norm());
+    ASSERT_EQ(by_plane[0].e.has_value(), by_map[0].e.has_value());
+    if (by_plane[0].e) {
+      EXPECT_NEAR(*by_plane[0].e, *by_map[0].e, 0.02 * by_plane[0].peak_deflection.norm());
+    }
+  }
 }
 
 // The same cut on a path that runs the other way, elsewhere: forces turn with it, the error stays.
