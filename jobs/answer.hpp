@@ -78,8 +78,8 @@ std::vector<std::string> job_names();
 /// The whole result document, arrays in their places.
 nlohmann::json assemble(const Answer& answer);
 
-/// The text of assemble(answer), written without building it: a million points in well under a
-/// second. Indented, arrays of numbers on one line; every number reads back as the same double.
+/// The text of assemble(answer), written without building it (docs/benchmarks.md, growth).
+/// Indented, arrays of numbers on one line; every number reads back as the same double.
 std::string to_json(const Answer& answer);
 
 }  // namespace ridgeline::jobs
