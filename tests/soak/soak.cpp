@@ -25,7 +25,7 @@ using namespace ridgeline;
 using Clock = std::chrono::steady_clock;
 
 struct Options {
-  int requests = 22'000;
+  int requests = 10'000;
   int clients = 16;
   int each = 200;                               ///< requests of one client, unless it is killed
   double kill_client = 0.5, kill_instance = 3;  ///< seconds between
