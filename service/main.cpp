@@ -56,6 +56,11 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--queue", options.server.limits.queue,
                  "Requests that may wait before more are refused (default 256)")
       ->check(CLI::Range(1U, 1'000'000U));
+  app.add_option_function<std::size_t>(
+         "--kept-answers",
+         [&options](std::size_t mb) { options.server.limits.answer_bytes = mb << 20; },
+         "Memory for answers that are kept for requests that come twice [MB] (default 64)")
+      ->check(CLI::Range(1U, 65'536U));
   app.add_option("--log-level", options.log_level, "debug, info, warning, error or off")
       ->check(CLI::IsMember({"debug", "info", "warning", "error", "off"}));
   app.add_flag("--check", options.is_check,

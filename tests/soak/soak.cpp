@@ -30,6 +30,8 @@ struct Options {
   int each = 200;                               ///< requests of one client, unless it is killed
   double kill_client = 0.5, kill_instance = 3;  ///< seconds between
   double timeout = 20;
+  int kept_answers = 8;   ///< of an instance [MB]: full before half of the requests, so that the
+                          ///< memory can be judged
   bool may_grow = false;  ///< too short to tell: what is kept to answer duplicates is not full yet
   std::string service_prefix, client_prefix;  ///< e.g. "ip netns exec a"
   std::string ask;                            ///< "DOMAIN SEED": be a client
@@ -120,7 +122,8 @@ private:
 
   std::unique_ptr<Process> start_instance(const std::string& name) {
     std::vector<std::string> command = words(options_.service_prefix);
-    const std::vector<std::string> daemon = daemon_command(name, {"--log-level", "warning"});
+    const std::vector<std::string> daemon = daemon_command(
+        name, {"--log-level", "warning", "--kept-answers", std::to_string(options_.kept_answers)});
     command.insert(command.end(), daemon.begin(), daemon.end());
     return std::make_unique<Process>(command, folder_ / (name + ".log"));
   }
@@ -222,6 +225,8 @@ int main(int argc, char** argv) {
   app.add_option("--kill-instance", options.kill_instance, "Seconds between")
       ->capture_default_str();
   app.add_option("--timeout", options.timeout, "Of a request [s]")->capture_default_str();
+  app.add_option("--kept-answers", options.kept_answers, "Of an instance [MB]")
+      ->capture_default_str();
   app.add_flag("--allow-growth", options.may_grow, "Too short a run to judge the memory");
   app.add_option("--service-prefix", options.service_prefix, "Command to run instances with");
   app.add_option("--client-prefix", options.client_prefix, "Command to run clients with");
