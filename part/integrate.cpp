@@ -19,9 +19,11 @@
 #include <gp_Sphere.hxx>
 #include <gp_Torus.hxx>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <vector>
 
+#include "core/base/root.hpp"
 #include "part/quadrature.hpp"
 #include "part/shape.hpp"
 #include "part/surface_spans.hpp"
@@ -40,9 +42,10 @@ std::vector<double> curve_spans(const BRepAdaptor_Curve& curve) {
   if (curve.GetType() == GeomAbs_BSplineCurve) spline = curve.BSpline();
   std::vector<double> found =
       spans(first, last, spline.IsNull() ? nullptr : &spline->Knots(), longest);
-  const bool is_rational = !spline.IsNull() && spline->IsRational();
-  const int degree = spline.IsNull() ? 0 : spline->Degree();
-  return needs_halves(is_rational, degree, found.size()) ? halved(found) : found;
+  if (spline.IsNull()) return found;
+  Weights weights;
+  for (int i = 1; i <= spline->NbPoles(); ++i) weights.add(spline->Weight(i));
+  return needs_halves(weights.ratio(), spline->Degree(), found.size()) ? halved(found) : found;
 }
 
 /// What is integrated: area, n (3), p n^T (9, row by row).
@@ -197,27 +200,35 @@ TColStd_Array1OfReal crossings(const gp_Lin2d& line, double first, double last,
   return limits;
 }
 
-/// The same for any curve, between `limits` that follow its turns.
+/// The same for any curve, between `limits` that follow its turns. The first and last knots break
+/// nothing: an edge that runs along one would cross it by its noise many times.
 void add_crossings(const Geom2dAdaptor_Curve& curve, const SurfaceSpans& knots,
                    std::vector<double>& limits) {
-  constexpr int halvings = 50;
+  std::vector<gp_Pnt2d> places;
+  for (const double t : limits) places.push_back(curve.Value(t));
   std::vector<double> found;
-  const auto add = [&](const std::vector<double>& values, const auto& coordinate) {
+  const auto add = [&](const std::vector<double>& values, int axis) {
+    const double tolerance = 1e-9 * (values.back() - values.front());
     for (std::size_t i = 0; i + 1 < limits.size(); ++i) {
-      for (const double value : values) {
-        double low = limits[i], high = limits[i + 1];
-        const bool is_rising = coordinate(low) < value;
-        if (is_rising == (coordinate(high) < value)) continue;
-        for (int k = 0; k < halvings; ++k) {
-          const double middle = (low + high) / 2;
-          ((coordinate(middle) < value) == is_rising ? low : high) = middle;
-        }
-        found.push_back(high);
+      const double low = places[i].Coord(axis);
+      const double high = places[i + 1].Coord(axis);
+      const double way = high < low ? -1 : 1;
+      for (std::size_t k = 1; k + 1 < values.size(); ++k) {
+        const double value = values[k];
+        if ((low < value) == (high < value)) continue;
+        const auto beyond = [&](double t) {
+          gp_Pnt2d p;
+          gp_Vec2d d;
+          curve.D1(t, p, d);
+          return RootSample{way * (p.Coord(axis) - value), way * d.Coord(axis)};
+        };
+        const double start = std::lerp(limits[i], limits[i + 1], (value - low) / (high - low));
+        found.push_back(rising_root(beyond, limits[i], limits[i + 1], start, tolerance).x);
       }
     }
   };
-  add(knots.u, [&](double t) { return curve.Value(t).X(); });
-  add(knots.v, [&](double t) { return curve.Value(t).Y(); });
+  add(knots.u, 1);
+  add(knots.v, 2);
   limits.insert(limits.end(), found.begin(), found.end());
   std::sort(limits.begin(), limits.end());
 }
@@ -282,14 +293,21 @@ Sums density(const BRepAdaptor_Surface& surface, double u, double v) {
   return sums_of(normal.norm(), normal, vector(p) * normal.transpose());
 }
 
-/// Integral of `f` from a to b over the spans between knots.
+/// Integral of `f` from a to b over the spans between knots; one point of a thin one, such as an
+/// edge leaves that runs along a by its noise.
 template <class F>
 Sums integral_across(double a, double b, const std::vector<double>& knots, const F& f) {
   Sums sums = Sums::Zero();
   const double sign = b < a ? -1 : 1;
+  const double thin = 1e-4 * (knots.back() - knots.front());
   const std::vector<double> limits = spans(std::min(a, b), std::max(a, b), &knots, HUGE_VAL);
   for (std::size_t i = 0; i + 1 < limits.size(); ++i) {
-    if (limits[i + 1] - limits[i] < 1e-12) continue;
+    const double width = limits[i + 1] - limits[i];
+    if (width < 1e-12) continue;
+    if (width < thin) {
+      sums += sign * width * f(std::midpoint(limits[i], limits[i + 1]));
+      continue;
+    }
     at_gauss_points(limits[i], limits[i + 1],
                     [&](double t, double weight) { sums += sign * weight * f(t); });
   }
@@ -341,11 +359,10 @@ double integral_along(const BRepAdaptor_Curve& curve, const Solid::Integrand& f)
   return sum;
 }
 
-void integrate(const TopoDS_Face& face, Face& result) {
-  const BRepAdaptor_Surface surface(face, Standard_False);
+void integrate(const TopoDS_Face& face, const BRepAdaptor_Surface& surface, Face& result) {
   if (surface.GetType() == GeomAbs_Plane) return integrate_plane(face, surface.Plane(), result);
   const std::optional<Revolution> round = revolution(surface);
-  if (!round) return integrate_numerically(face, BRepAdaptor_Surface(face), result);
+  if (!round) return integrate_numerically(face, surface, result);
   Reach reach;
   const bool is_curved = round->type == GeomAbs_Sphere || round->type == GeomAbs_Torus;
   const auto along_u = [&](const gp_Pnt2d& p, const gp_Vec2d& d, double weight, Sums& sums) {

@@ -1,9 +1,12 @@
 #include "part/meridian.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
+#include "part/greatest.hpp"
 #include "part/profile_fit.hpp"
 
 namespace ridgeline::part {
@@ -56,7 +59,7 @@ void for_each_edge(const Face& face, const F& f) {
 Placed::Extent extent_of(const Placed& part, const Face& face) {
   Placed::Extent all{HUGE_VAL, -HUGE_VAL};
   for_each_edge(face, [&](int edge) {
-    const Placed::Extent one = part.extent(edge, Eigen::Vector3d::UnitZ());
+    const Placed::Extent one = part.extent_along_z(edge);
     all.low = std::min(all.low, one.low);
     all.high = std::max(all.high, one.high);
   });
@@ -79,28 +82,57 @@ void add_straight(const Placed& part, const Face& face, int number, std::vector<
   found.push_back(one);
 }
 
-/// Angles of a tube's circle that a face reaches: its edges run over all of them.
-std::vector<std::array<double, 2>> reached(const Placed& part, const Face& face, double R,
-                                           double zc) {
-  std::vector<std::array<double, 2>> steps;
-  for_each_edge(face, [&](int number) {
-    const Edge& edge = part.model().edges[static_cast<std::size_t>(number)];
-    for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
-      const Eigen::Vector3d& p = edge.points[i];
-      const Eigen::Vector3d& q = edge.points[i + 1];
-      const double from = std::atan2(p.z() - zc, radius_of(p) - R);
-      const double by = std::remainder(std::atan2(q.z() - zc, radius_of(q) - R) - from, 2 * pi);
-      steps.push_back({std::min(from, from + by), std::max(from, from + by)});
-    }
-  });
-  for (auto& step : steps) {  // into [-pi/2, 3 pi/2), the order of the halves
-    while (step[0] < -pi / 2 - 1e-9) {
-      step[0] += 2 * pi;
-      step[1] += 2 * pi;
+using Angles = std::array<double, 2>;
+
+/// How far an edge that bends about goes beyond its points.
+void add_extremes(const Placed& part, int number, const std::vector<double>& angles,
+                  const std::function<double(const Eigen::Vector3d&)>& angle_at,
+                  std::vector<Angles>& steps) {
+  const auto n = angles.size() - 1;
+  const auto [least, most] = std::minmax_element(angles.begin(), angles.end());
+  if (*most - *least < 1e-9) return;  // a circle about the axis
+  for (std::size_t i = 0; i <= n; ++i) {
+    const std::size_t before = i == 0 ? i : i - 1;
+    const std::size_t after = std::min(i + 1, n);
+    for (const double sign : {-1.0, 1.0}) {
+      const double here = sign * angles[i];
+      if (here < sign * angles[before] || here < sign * angles[after]) continue;
+      const auto t = [n](std::size_t k) { return static_cast<double>(k) / static_cast<double>(n); };
+      const double beyond = greatest(t(before), t(after), [&](double at) {
+        const double angle = angle_at(part.edge_point(number, at));
+        return sign * (angles[i] + std::remainder(angle - angles[i], 2 * pi));
+      });
+      if (beyond <= here) continue;
+      steps.push_back({std::min(sign * beyond, angles[i]), std::max(sign * beyond, angles[i])});
     }
   }
+}
+
+/// Angles of a tube's circle that a face reaches: its edges run over all of them.
+std::vector<Angles> reached(const Placed& part, const Face& face, double R, double zc) {
+  const auto angle_at = [&](const Eigen::Vector3d& p) {
+    return std::atan2(p.z() - zc, radius_of(p) - R);
+  };
+  std::vector<Angles> steps;
+  for_each_edge(face, [&](int number) {
+    const Edge& edge = part.model().edges[static_cast<std::size_t>(number)];
+    std::vector<double> angles;
+    for (const Eigen::Vector3d& p : edge.points) {
+      const double angle = angle_at(p);
+      angles.push_back(
+          angles.empty() ? angle : angles.back() + std::remainder(angle - angles.back(), 2 * pi));
+    }
+    for (std::size_t i = 0; i + 1 < angles.size(); ++i)
+      steps.push_back({std::min(angles[i], angles[i + 1]), std::max(angles[i], angles[i + 1])});
+    if (!edge.is_seam && edge.kind != CurveKind::Line)
+      add_extremes(part, number, angles, angle_at, steps);
+  });
+  for (auto& step : steps) {  // into [-pi/2, 3 pi/2), the order of the halves
+    const double turns = std::floor((step[0] + pi / 2 + 1e-9) / (2 * pi));
+    for (double& angle : step) angle -= 2 * pi * turns;
+  }
   std::sort(steps.begin(), steps.end());
-  std::vector<std::array<double, 2>> merged;
+  std::vector<Angles> merged;
   for (const auto& step : steps) {
     if (!merged.empty() && step[0] <= merged.back()[1] + 1e-7)
       merged.back()[1] = std::max(merged.back()[1], step[1]);
@@ -112,11 +144,10 @@ std::vector<std::array<double, 2>> reached(const Placed& part, const Face& face,
 
 /// A face of a sphere is in one piece and may cover a pole without an edge there: the solid then
 /// ends at the sphere.
-std::vector<std::array<double, 2>> with_poles(const Placed& part, const Face& face, double R,
-                                              double zc,
-                                              const std::vector<std::array<double, 2>>& steps) {
+std::vector<Angles> with_poles(const Placed& part, const Face& face, double R, double zc,
+                               const std::vector<Angles>& steps) {
   if (steps.empty()) return {};
-  std::array<double, 2> all = steps.front();
+  Angles all = steps.front();
   for (const auto& step : steps) all = {std::min(all[0], step[0]), std::max(all[1], step[1])};
   const auto is_covered = [&](double pole) {
     const double shy = 1e-3 * R;
@@ -161,7 +192,7 @@ void add_tube(const Placed& part, const Face& face, int number, std::vector<Meri
     if (std::abs(off) > 1e-3) R = -R;
   }
   const Point centre{R, s.origin.z()};
-  std::vector<std::array<double, 2>> steps = reached(part, face, R, centre.z);
+  std::vector<Angles> steps = reached(part, face, R, centre.z);
   if (is_sphere) steps = with_poles(part, face, tube, centre.z, steps);
   for (const auto& [v0, v1] : steps) {
     for (const double turn : {0.0, -2 * pi}) {
@@ -192,13 +223,11 @@ int longest_edge(const Placed& part, const Face& face) {
 void add_free(const Placed& part, const Face& face, int number, std::vector<Meridian>& found) {
   const int edge = longest_edge(part, face);
   if (edge < 0) return;
-  constexpr int n = 1024;  // a piece of three points would always fit
-  std::vector<Point> points;
-  for (int i = 0; i <= n; ++i) {
-    const Eigen::Vector3d p = part.edge_point(edge, static_cast<double>(i) / n);
-    points.push_back({radius_of(p), p.z()});
-  }
-  for (const FittedPiece& piece : fitted(points, fit_tolerance)) {
+  const auto profile = [&](double t) {
+    const Eigen::Vector3d p = part.edge_point(edge, t);
+    return Point{radius_of(p), p.z()};
+  };
+  for (const FittedPiece& piece : fitted_along(profile, fit_tolerance)) {
     const double z = (piece.z0 + piece.z1) / 2;
     const double r = units::radius_at(piece.curve, z);
     const auto nearest = std::min_element(

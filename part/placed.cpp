@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "part/greatest.hpp"
+
 namespace ridgeline::part {
 namespace {
 
@@ -129,7 +131,10 @@ geometry::Frame turning_frame(const Model& model, const Axis& axis) {
 }
 
 Placed::Placed(Solid solid, const geometry::Frame& frame)
-    : solid_(std::move(solid)), frame_(frame), model_(moved(frame, solid_.model())) {}
+    : solid_(std::move(solid)),
+      frame_(frame),
+      model_(moved(frame, solid_.model())),
+      along_z_(model_.edges.size()) {}
 
 std::vector<Solid::Triangle> Placed::mesh(std::span<const int> faces, double deflection) const {
   std::vector<Solid::Triangle> triangles = solid_.mesh(faces, deflection);
@@ -189,26 +194,22 @@ Placed::Extent Placed::extent(int edge, const Eigen::Vector3d& d) const {
   }
   if (e.kind == CurveKind::Line || found.high - found.low < 1e-9) return found;
   const double n = static_cast<double>(e.points.size() - 1);
-  for (const double sign : {-1.0, 1.0}) {  // golden section about the outermost point
+  for (const double sign : {-1.0, 1.0}) {
     const auto best = std::max_element(
         e.points.begin(), e.points.end(),
         [&](const auto& p, const auto& q) { return sign * p.dot(d) < sign * q.dot(d); });
     const double at = static_cast<double>(best - e.points.begin());
-    double low = std::max(0.0, (at - 1) / n);
-    double high = std::min(1.0, (at + 1) / n);
-    const double ratio = (std::sqrt(5.0) - 1) / 2;
-    double extreme = sign * best->dot(d);
-    for (int k = 0; k < 40; ++k) {
-      const double t0 = high - ratio * (high - low);
-      const double t1 = low + ratio * (high - low);
-      const double x0 = sign * edge_point(edge, t0).dot(d);
-      const double x1 = sign * edge_point(edge, t1).dot(d);
-      extreme = std::max({extreme, x0, x1});
-      (x0 > x1 ? high : low) = x0 > x1 ? t1 : t0;
-    }
-    (sign < 0 ? found.low : found.high) = sign * extreme;
+    const double extreme = greatest(std::max(0.0, (at - 1) / n), std::min(1.0, (at + 1) / n),
+                                    [&](double t) { return sign * edge_point(edge, t).dot(d); });
+    (sign < 0 ? found.low : found.high) = sign * std::max(extreme, sign * best->dot(d));
   }
   return found;
+}
+
+Placed::Extent Placed::extent_along_z(int edge) const {
+  std::optional<Extent>& known = along_z_[static_cast<std::size_t>(edge)];
+  if (!known) known = extent(edge, Eigen::Vector3d::UnitZ());
+  return *known;
 }
 
 }  // namespace ridgeline::part

@@ -38,11 +38,14 @@ public:
     double high = 0;
   };
   Extent extent(int edge, const Eigen::Vector3d& d) const;
+  Extent extent_along_z(int edge) const;
 
 private:
   Solid solid_;
   geometry::Frame frame_;
   Model model_;
+  /// Every edge belongs to two faces that ask; one thread at a time.
+  mutable std::vector<std::optional<Extent>> along_z_;
 };
 
 }  // namespace ridgeline::part

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace ridgeline::part {
 namespace {
@@ -76,11 +77,37 @@ std::vector<FittedPiece> fitted(std::span<const Point> points, double tolerance)
     if (best) {
       const double za = points[i].z;
       const double zb = points[end].z;
-      pieces.push_back({*best, std::min(za, zb), std::max(za, zb)});
+      pieces.push_back({*best, std::min(za, zb), std::max(za, zb), i, end});
     }
     i = end;
   }
   return pieces;
+}
+
+std::vector<FittedPiece> fitted_along(const std::function<Point(double t)>& curve,
+                                      double tolerance) {
+  constexpr std::size_t fewest = 64, most = 1024;
+  constexpr double between = 1.1;  // of the tolerance, for points that were not fitted
+  std::vector<Point> points;
+  for (std::size_t i = 0; i <= fewest; ++i)
+    points.push_back(curve(static_cast<double>(i) / fewest));
+  for (std::size_t n = fewest;; n *= 2) {
+    std::vector<FittedPiece> pieces = fitted(points, tolerance);
+    if (n == most) return pieces;
+    std::vector<Point> denser;
+    for (std::size_t i = 0; i < n; ++i) {
+      denser.push_back(points[i]);
+      denser.push_back(curve((static_cast<double>(i) + 0.5) / static_cast<double>(n)));
+    }
+    denser.push_back(points.back());
+    const bool fits = std::ranges::all_of(pieces, [&](const FittedPiece& piece) {
+      for (std::size_t i = piece.first; i < piece.last; ++i)
+        if (deviation(piece.curve, denser[2 * i + 1]) > between * tolerance) return false;
+      return true;
+    });
+    if (fits) return pieces;
+    points = std::move(denser);
+  }
 }
 
 }  // namespace ridgeline::part

@@ -86,8 +86,8 @@ Sample sample_at(const BRepAdaptor_Surface& surface, bool is_reversed, double u,
 
 std::vector<Sample> samples_of(const TopoDS_Face& face, const BRepAdaptor_Surface& surface,
                                int steps) {
-  double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
-  BRepTools::UVBounds(face, u0, u1, v0, v1);
+  const double u0 = surface.FirstUParameter(), u1 = surface.LastUParameter();
+  const double v0 = surface.FirstVParameter(), v1 = surface.LastVParameter();
   const bool is_reversed = face.Orientation() == TopAbs_REVERSED;
   std::vector<Sample> samples;
   for (int i = 0; i < steps; ++i) {
@@ -113,7 +113,7 @@ Surface on_nappe_of(const Eigen::Vector3d& point, Surface cone) {
 
 Face face_of(const TopoDS_Face& shape) {
   Face face;
-  const BRepAdaptor_Surface surface(shape);
+  const BRepAdaptor_Surface surface(shape);  // as far as the face reaches
   face.surface = surface_of(surface);
   const bool is_free = face.surface.kind == SurfaceKind::Other;
   face.samples = samples_of(shape, surface, is_free ? grid : 1);
@@ -122,7 +122,7 @@ Face face_of(const TopoDS_Face& shape) {
   }
   if (face.surface.kind == SurfaceKind::Cone && !face.samples.empty())
     face.surface = on_nappe_of(face.samples.front().point, face.surface);
-  integrate(shape, face);
+  integrate(shape, surface, face);
   if (face.surface.kind == SurfaceKind::Plane) {
     face.side = face.normal_integral.dot(face.surface.axis) < 0 ? -1 : 1;
   } else if (face.surface.kind != SurfaceKind::Other && !face.samples.empty()) {

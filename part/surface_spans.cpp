@@ -3,6 +3,7 @@
 #include <BRepAdaptor_Surface.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <TColStd_Array1OfReal.hxx>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -32,7 +33,7 @@ std::vector<double> intervals_v(const BRepAdaptor_Surface& surface) {
 struct Direction {
   const TColStd_Array1OfReal& knots;
   bool is_periodic = false;
-  bool is_rational = false;
+  double weight_ratio = 1;
   int degree = 0;
 };
 
@@ -51,8 +52,25 @@ std::vector<double> spans_of(const Direction& direction, double first, double la
     }
   }
   found.push_back(last);
-  return needs_halves(direction.is_rational, direction.degree, found.size()) ? halved(found)
-                                                                             : found;
+  return needs_halves(direction.weight_ratio, direction.degree, found.size()) ? halved(found)
+                                                                              : found;
+}
+
+enum class Along { U, V };
+
+/// The least ratio of weights in a row of poles along one direction.
+double weight_ratio(const Geom_BSplineSurface& s, Along along) {
+  if (!(along == Along::U ? s.IsURational() : s.IsVRational())) return 1;
+  const int rows = along == Along::U ? s.NbVPoles() : s.NbUPoles();
+  const int columns = along == Along::U ? s.NbUPoles() : s.NbVPoles();
+  double least = 1;
+  for (int row = 1; row <= rows; ++row) {
+    Weights weights;
+    for (int i = 1; i <= columns; ++i)
+      weights.add(along == Along::U ? s.Weight(i, row) : s.Weight(row, i));
+    least = std::min(least, weights.ratio());
+  }
+  return least;
 }
 
 }  // namespace
@@ -67,9 +85,10 @@ SurfaceSpans surface_spans(const BRepAdaptor_Surface& surface) {
     return {intervals_u(surface), intervals_v(surface)};
   }
   const Handle(Geom_BSplineSurface) s = surface.BSpline();
-  return {spans_of({s->UKnots(), s->IsUPeriodic(), s->IsURational(), s->UDegree()}, u0, u1),
-          spans_of({s->VKnots(), s->IsVPeriodic(), s->IsVRational(), s->VDegree()},
-                   surface.FirstVParameter(), surface.LastVParameter())};
+  return {
+      spans_of({s->UKnots(), s->IsUPeriodic(), weight_ratio(*s, Along::U), s->UDegree()}, u0, u1),
+      spans_of({s->VKnots(), s->IsVPeriodic(), weight_ratio(*s, Along::V), s->VDegree()},
+               surface.FirstVParameter(), surface.LastVParameter())};
 }
 
 }  // namespace ridgeline::part
