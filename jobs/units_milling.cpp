@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/base/angle.hpp"
 #include "core/units/offset.hpp"
 #include "core/units/overlay.hpp"
+#include "core/units/tolerance.hpp"
 #include "jobs/units_nc.hpp"
 #include "jobs/units_tilted.hpp"
 
@@ -30,7 +32,6 @@ using units::ToolRow;
 using units::Unit;
 
 constexpr double along = 1 - 1e-9;    // cosine: along the axis
-constexpr double across = 1e-6;       // cosine: across it
 constexpr double breakthrough = 0.5;  // [mm]
 constexpr double clear = 2;           // [mm]
 constexpr double row_share = 0.7;     // of the cutter's diameter from row to row
@@ -65,7 +66,7 @@ std::optional<LatheHole> placed(const Hole& hole, const LatheFrame& frame, doubl
     out.end = p.z() - depth;
     return out;
   }
-  if (std::abs(d.z()) > across) return std::nullopt;
+  if (std::abs(d.z()) > units::across_axis) return std::nullopt;
   out.is_radial = true;
   out.c = angle_of(-d.y(), -d.x());
   out.x = -(p.x() * d.x() + p.y() * d.y());
@@ -97,7 +98,7 @@ std::optional<Plane> plane_of(const MilledFace& face, const LatheFrame& frame) {
     plane.b = Vector3d::UnitY();
     return plane;
   }
-  if (std::abs(n.z()) > across) return std::nullopt;
+  if (std::abs(n.z()) > units::across_axis) return std::nullopt;
   plane.c = angle_of(n.y(), n.x());
   plane.a = Vector3d::UnitZ();
   plane.b = Vector3d(-n.y(), n.x(), 0);
@@ -304,10 +305,18 @@ void add_hole_steps(const Unit& unit, const LatheFrame& frame, const Region& mat
   };
   add(unit.tools.front(), hole.depth + point + over, hole.diameter);
   double depth = 0;
+  double narrowest = HUGE_VAL;  // of the steps before
   std::size_t next = 1;
   for (const units::HoleStep& step : hole.steps) {
     depth += step.length;
+    const double before = std::exchange(narrowest, std::min(narrowest, step.end_diameter));
     if (step.diameter <= hole.diameter + 1e-6) continue;
+    if (step.diameter > before + 1e-6) {
+      notes.push_back(fmt::format("unit {}: its diameter {:.6g} lies behind {:.6g}; no path for it",
+                                  unit.number, step.diameter, before));
+      ++next;
+      continue;
+    }
     if (next >= unit.tools.size()) {
       notes.push_back(
           fmt::format("unit {}: no tool for its diameter {:.6g}", unit.number, step.diameter));

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -159,25 +160,118 @@ void open_steps(const Placed& part, Group& group) {
     group.closed_high = false;
 }
 
-/// Turns the group round so that t runs the way the drill goes.
-void direct(Group& group) {
-  bool reverse = false;
-  if (group.closed_low != group.closed_high) {
-    reverse = group.closed_low;
-  } else {
-    const Eigen::Vector3d& d = group.axis.direction;
-    const Eigen::Vector3d low = group.axis.point + group.stretches.front().t0 * d;
-    const Eigen::Vector3d high = group.axis.point + group.stretches.back().t1 * d;
-    if (std::abs(d.z()) > along_z)
-      reverse = d.z() < 0;  // through along Z: from the front
-    else
-      reverse = high.head<2>().norm() > low.head<2>().norm() + same_radius;  // from outside
+/// Does the product, turned, stand in the way of a drill along Z, beyond the air before its mouth?
+bool is_blocked_along_z(const Envelope& envelope, const Eigen::Vector3d& mouth, double R,
+                        double sense) {
+  const double r = mouth.head<2>().norm();
+  const double beside = R - same_radius;
+  std::vector<std::array<double, 2>> met;  // along the way out
+  for (const units::Cell& cell : envelope.shadow().cells) {
+    if (units::range(cell.inner, cell.z0, cell.z1).min > r + beside ||
+        units::range(cell.outer, cell.z0, cell.z1).max < r - beside)
+      continue;
+    const double a = sense * (cell.z0 - mouth.z()), b = sense * (cell.z1 - mouth.z());
+    met.push_back({std::min(a, b), std::max(a, b)});
   }
-  if (!reverse) return;
+  std::sort(met.begin(), met.end());
+  double end = same_radius;  // of the material about the mouth, such as a pocket's
+  for (const auto& [from, to] : met) {
+    if (to <= end) continue;
+    if (from > end) return true;
+    end = to + same_radius;
+  }
+  return false;
+}
+
+/// The same for any direction, by places on the axis: a bore's other wall is met.
+bool is_blocked(const Envelope& envelope, const Eigen::Vector3d& mouth, double R,
+                const Eigen::Vector3d& outwards) {
+  if (std::abs(outwards.z()) > along_z)
+    return is_blocked_along_z(envelope, mouth, R, outwards.z() > 0 ? 1 : -1);
+  constexpr int steps = 400;
+  const units::Box box = units::box(envelope.shadow());
+  const double far = 2 * box.r1 + box.z1 - box.z0;
+  bool has_left = false;
+  for (int i = 1; i <= steps; ++i) {
+    const bool is_in = envelope.is_inside(mouth + far * i / steps * outwards, 0);
+    if (is_in && has_left) return true;
+    has_left |= !is_in;
+  }
+  return false;
+}
+
+void turn_round(Group& group) {
   group.axis.direction = -group.axis.direction;
   std::swap(group.closed_low, group.closed_high);
   std::reverse(group.stretches.begin(), group.stretches.end());
   for (Stretch& one : group.stretches) one = {-one.t1, -one.t0, one.r1, one.r0};
+}
+
+/// Can the mouth at the least t be reached from outside?
+bool is_open(const Envelope& envelope, const Group& group) {
+  const Stretch& first = group.stretches.front();
+  const Eigen::Vector3d mouth = group.axis.point + first.t0 * group.axis.direction;
+  return !is_blocked(envelope, mouth, first.r0, -group.axis.direction);
+}
+
+/// Do the stretches follow each other and nowhere widen along t? Then a drill makes them.
+bool narrows(const Group& group) {
+  double end = -HUGE_VAL;
+  double r = HUGE_VAL;
+  for (const Stretch& one : group.stretches) {
+    if (one.t0 < end - same_radius || one.r0 > r + same_radius || one.r1 > one.r0 + same_radius)
+      return false;
+    end = one.t1;
+    r = one.r1;
+  }
+  return true;
+}
+
+/// Turns the group round so that t runs the way the drill goes: into a blind hole, from the wider
+/// end, from the front, from outside; but not from an end that cannot be reached.
+void direct(const Envelope& envelope, Group& group) {
+  if (group.closed_low != group.closed_high) {
+    if (group.closed_low) turn_round(group);
+    return;
+  }
+  const Eigen::Vector3d& d = group.axis.direction;
+  const Eigen::Vector3d low = group.axis.point + group.stretches.front().t0 * d;
+  const Eigen::Vector3d high = group.axis.point + group.stretches.back().t1 * d;
+  const bool is_along_z = std::abs(d.z()) > along_z;
+  if (is_along_z ? d.z() < 0 : high.head<2>().norm() > low.head<2>().norm() + same_radius)
+    turn_round(group);
+  Group other = group;
+  turn_round(other);
+  const bool is_wider_behind = narrows(other) && !narrows(group);
+  const bool must_ask = is_along_z || is_wider_behind;
+  if (!must_ask || !is_open(envelope, other)) return;
+  if (is_wider_behind || !is_open(envelope, group)) group = std::move(other);
+}
+
+/// Of a through hole that widens again behind its narrowest stretch, that part, from its own end.
+std::optional<Group> taken_from_behind(const Envelope& envelope, Group& group) {
+  if (group.closed_high || narrows(group)) return std::nullopt;
+  double narrowest = HUGE_VAL;
+  for (const Stretch& one : group.stretches) narrowest = std::min({narrowest, one.r0, one.r1});
+  std::size_t count = group.stretches.size();
+  while (std::min(group.stretches[count - 1].r0, group.stretches[count - 1].r1) >
+             narrowest + same_radius ||
+         group.stretches[count - 1].r1 > group.stretches[count - 1].r0 + same_radius) {
+    if (--count == 0) return std::nullopt;
+  }
+  Group front = group;
+  Group behind = group;
+  front.stretches.resize(count);
+  behind.stretches.erase(behind.stretches.begin(),
+                         behind.stretches.begin() + static_cast<std::ptrdiff_t>(count));
+  if (behind.stretches.empty()) return std::nullopt;
+  turn_round(behind);
+  behind.closed_high = true;  // by the narrower hole
+  behind.walls.clear();
+  behind.planes.clear();
+  if (!narrows(front) || !narrows(behind) || !is_open(envelope, behind)) return std::nullopt;
+  group = std::move(front);
+  return behind;
 }
 
 /// Where the axis enters the envelope at the mouth; the mouth itself where that lies deeper.
@@ -249,12 +343,15 @@ std::vector<Bore> bores_of(const Placed& part, const Envelope& envelope,
     add_stretches(part, group);
     add_planes(part, faces, group);
     open_steps(part, group);
-    direct(group);
-    Bore bore;
-    bore.hole = hole_of(envelope, group);
-    bore.faces = group.walls;
-    bore.faces.insert(bore.faces.end(), group.planes.begin(), group.planes.end());
-    bores.push_back(std::move(bore));
+    direct(envelope, group);
+    const auto add = [&](const Group& one) {
+      Bore bore{hole_of(envelope, one), one.walls};
+      bore.faces.insert(bore.faces.end(), one.planes.begin(), one.planes.end());
+      bores.push_back(std::move(bore));
+    };
+    const std::optional<Group> behind = taken_from_behind(envelope, group);
+    add(group);
+    if (behind) add(*behind);
   }
   return bores;
 }

@@ -1,16 +1,15 @@
 #include "core/units/features.hpp"
 
-#include <cmath>
+#include "core/units/tolerance.hpp"
 
 namespace ridgeline::units {
 namespace {
 
-constexpr double along_axis = 0.5;  // cosine to Z beyond which a tool comes from that end
-
-/// `way` is the direction in which the tool advances.
+/// Design 1.8-j: the spindle whose free end the tool comes from, along the axis or leaning; across
+/// the axis both reach it. `way` is the part along Z of the unit vector in which the tool advances.
 int process_of(double way, double z, const Split& split) {
-  if (way > along_axis) return 1;
-  if (way < -along_axis) return 2;
+  if (way > across_axis) return 1;
+  if (way < -across_axis) return 2;
   return z < split.outer ? 1 : 2;
 }
 

@@ -13,5 +13,7 @@ constexpr double sliver_thickness = 1e-4;
 constexpr double equal_volume = 1e-3;
 /// Holes and faces whose parameters differ by less are equal [mm]; design 1.8-q.
 constexpr double equal_parameter = 1e-6;
+/// Cosine to the turning axis up to which a hole or a face lies across it.
+constexpr double across_axis = 1e-6;
 
 }  // namespace ridgeline::units

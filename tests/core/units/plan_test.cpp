@@ -66,6 +66,36 @@ TEST(Plan, FiguresFollowTheProductSide) {
   EXPECT_NEAR(back.shape[0].end.z, 120, 1e-12);
 }
 
+// Design 1.8-j: from the side where they begin no tool reaches them.
+TEST(Plan, WhatLeansIsCutFromTheEndThatItLeansTo) {
+  PlanJob job = flanged_job();
+  const std::size_t holes = job.product.holes.size();
+  const std::size_t faces = job.product.faces.size();
+  for (const double z : {10.0, 110.0}) {
+    for (const double lean : {0.3, 1e-3, -1e-3, -0.3}) {
+      const Eigen::Vector3d way(-std::sqrt(1 - lean * lean), 0, lean);
+      Hole hole = job.product.holes[0];
+      hole.start = {30, 0, z};
+      hole.direction = way;
+      job.product.holes.push_back(hole);
+      MilledFace face = job.product.faces[0];
+      face.normal = -way;
+      face.z0 = face.z1 = z;
+      job.product.faces.push_back(face);
+    }
+  }
+  int checked = 0;
+  for (const Unit& unit : plan(job).units) {
+    const bool is_hole = unit.kind == UnitKind::Hole && unit.feature >= holes;
+    const bool is_face = unit.kind == UnitKind::FaceMill && unit.feature >= faces;
+    if (!is_hole && !is_face) continue;
+    const double way = is_hole ? unit.hole->direction.z() : -unit.face->normal.z();
+    EXPECT_EQ(unit.process, way > 0 ? 1 : 2) << way;
+    ++checked;
+  }
+  EXPECT_EQ(checked, 16);
+}
+
 // Document 004, figures 28 and 40.
 TEST(Edit, LongerBoreOfProcess1ReproducesFigure40) {
   const Program program = plan(flanged_job());
