@@ -176,7 +176,11 @@ Value evaluate(const Program& program, std::int32_t code, const Variables& varia
   std::array<Operand, 64> stack;
   std::size_t top = 0;  // operands on the stack
   const Profile& profile = variables.profile();
-  const int bits = profile.mantissa_bits;
+  // As the control keeps it: a literal too has no more digits than a computed value.
+  const auto kept = [bits = profile.mantissa_bits](double number, int column) -> Operand {
+    if (!std::isfinite(number)) raise(AlarmNumber::FloatOverflow, {}, column);
+    return {bits > 0 ? to_mantissa(number, bits) : number, false};
+  };
   for (const Instruction* at = program.code.data() + code;; ++at) {
     switch (at->op) {
       case Op::Return: {
@@ -185,7 +189,7 @@ Value evaluate(const Program& program, std::int32_t code, const Variables& varia
         if (!std::isfinite(result.number)) raise(AlarmNumber::FloatOverflow, {}, at->column);
         return result.number + 0.0;  // no negative zero
       }
-      case Op::Literal: stack[top++] = {at->number, false}; break;
+      case Op::Literal: stack[top++] = kept(at->number, at->column); break;
       case Op::Local: stack[top++] = operand(variables.local(at->index)); break;
       case Op::Common: stack[top++] = operand(variables.common(at->index)); break;
       case Op::System: stack[top++] = operand(variables.read(at->index, at->column)); break;
@@ -230,12 +234,13 @@ Value evaluate(const Program& program, std::int32_t code, const Variables& varia
       case Op::Adp: stack[top++] = {variables.point_added(at->index), false}; break;
       case Op::Atan2:
         --top;
-        stack[top - 1] = {
-            arc_tangent(stack[top - 1].number, stack[top].number, profile, at->column), false};
+        stack[top - 1] = kept(
+            arc_tangent(stack[top - 1].number, stack[top].number, profile, at->column), at->column);
         break;
       case Op::Pow:
         --top;
-        stack[top - 1] = {power(stack[top - 1].number, stack[top].number, at->column), false};
+        stack[top - 1] =
+            kept(power(stack[top - 1].number, stack[top].number, at->column), at->column);
         break;
       case Op::Sin:
       case Op::Cos:
@@ -252,14 +257,13 @@ Value evaluate(const Program& program, std::int32_t code, const Variables& varia
       case Op::Fup:
       case Op::Ln:
       case Op::Exp:
-        stack[top - 1] = {function_of(at->op, stack[top - 1].number, profile, at->column), false};
-        if (bits > 0) stack[top - 1].number = to_mantissa(stack[top - 1].number, bits);
+        stack[top - 1] =
+            kept(function_of(at->op, stack[top - 1].number, profile, at->column), at->column);
         break;
       default:
         --top;
-        stack[top - 1] = {arithmetic(at->op, stack[top - 1].number, stack[top].number, at->column),
-                          false};
-        if (bits > 0) stack[top - 1].number = to_mantissa(stack[top - 1].number, bits);
+        stack[top - 1] = kept(
+            arithmetic(at->op, stack[top - 1].number, stack[top].number, at->column), at->column);
         break;
     }
   }

@@ -19,6 +19,7 @@ std::string code_text(char letter, double value) {
 bool takes_axis_words(int code) {
   switch (code) {
     case 40:
+    case 51:
     case 100:
     case 270:
     case 280:
@@ -40,8 +41,7 @@ bool takes_axis_words(int code) {
 
 // Look-ahead, smoothing and stroke checks: nothing to simulate.
 bool is_without_effect(int code) {
-  return code == 50 || code == 51 || code == 80 || code == 90 || code == 220 || code == 230 ||
-         code == 250 || code == 260 || code == 600;
+  return code == 50 || code == 80 || code == 90 || code == 250 || code == 260 || code == 600;
 }
 
 bool is_after_move(int m) {
@@ -140,6 +140,11 @@ bool NcExecutor::apply_modal(int code) {
     case 190: select_plane(code); return true;
     case 200:
     case 210: select_units(code); return true;
+    case 220:
+    case 230:
+      if (code == 220) one_shot_ = code;  // its words are the forbidden space
+      modal.stroke = code;
+      return true;
     case 400:
     case 410:
     case 420:
@@ -324,6 +329,8 @@ bool NcExecutor::run_special() {
   switch (one_shot_) {
     case 0: return false;
     case 40: dwell(); return true;
+    case 51:  // the axes of a smooth path, not where to go
+    case 220: return true;
     case 100: set_data(); return true;
     case 270: straight(MoveKind::Rapid, target()); return true;
     case 280:

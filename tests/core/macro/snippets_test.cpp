@@ -1,42 +1,16 @@
 #include <gtest/gtest.h>
 
-#include <map>
-#include <ostream>
 #include <string>
 
-#include "core/macro/interpreter.hpp"
+#include "tests/core/macro/snippet.hpp"
 
 namespace ridgeline::macro {
 namespace {
 
-/// A program as shops write them, and the commons that it leaves; or the alarm that stops it.
-struct Snippet {
-  const char* name;
-  std::string text;
-  std::map<int, double> variables;
-  int alarm = 0;
-  int line = 0;
-};
-void PrintTo(const Snippet& snippet, std::ostream* out) {
-  *out << snippet.name;
-}
-
 class ShopSnippet : public testing::TestWithParam<Snippet> {};
 
 TEST_P(ShopSnippet, RunsAsOnAControl) {
-  const Snippet& snippet = GetParam();
-  const Result result = run(snippet.text);
-  ASSERT_EQ(result.alarm ? result.alarm->number : 0, snippet.alarm)
-      << (result.alarm ? result.alarm->message : "");
-  if (result.alarm) {
-    EXPECT_EQ(result.alarm->line, snippet.line) << result.alarm->message;
-  }
-  for (const auto& [number, value] : snippet.variables) {
-    SCOPED_TRACE(number);
-    ASSERT_TRUE(result.variables.contains(number));
-    EXPECT_FALSE(result.variables.at(number).vacant);
-    EXPECT_NEAR(result.variables.at(number).number, value, 1e-12);
-  }
+  expect_as_said(GetParam());
 }
 
 // #5001.. after the last block stand in commons, so that the moves show.
