@@ -140,6 +140,11 @@ Progress part_of(const Progress& progress, double from, double to) {
   return part;
 }
 
+void choose_tests(AlongJob& job, std::size_t stations) {
+  if (job.options.stability_every < 1)
+    job.options.stability_every = static_cast<int>((stations + most_tests - 1) / most_tests);
+}
+
 void refuse_chatter(const std::vector<cutting::Station>& stations,
                     const std::vector<cutting::StationError>& errors, double radius) {
   for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -158,20 +163,33 @@ void refuse_chatter(const std::vector<cutting::Station>& stations,
   }
 }
 
+std::vector<cutting::StationError> predicted(AlongJob job,
+                                             const std::vector<cutting::Station>& stations,
+                                             const Progress& progress) {
+  choose_tests(job, stations.size());
+  return cutting::along(job.course, stations, job.compliance, job.S(), job.options, progress);
+}
+
+std::vector<cutting::StationError> corrected(AlongJob job,
+                                             const std::vector<cutting::Station>& stations,
+                                             const cutting::CorrectOptions& limits,
+                                             const Progress& progress) {
+  choose_tests(job, stations.size());
+  std::vector<cutting::StationError> out = cutting::corrected(
+      job.course, stations, job.compliance, job.S(), job.options, limits, progress);
+  refuse_chatter(stations, out, job.course.cutter.r);
+  return out;
+}
+
 AlongResult run_along(AlongJob job, const std::vector<cutting::Station>& stations,
                       const Progress& progress) {
   const Clock::time_point begin = Clock::now();
-  if (job.options.stability_every < 1)
-    job.options.stability_every = static_cast<int>((stations.size() + most_tests - 1) / most_tests);
   AlongResult out;
   const double half = job.correct ? 0.5 : 1;
-  out.before = cutting::along(job.course, stations, job.compliance, job.S(), job.options,
-                              part_of(progress, 0, half));
+  out.before = predicted(job, stations, part_of(progress, 0, half));
   if (job.correct) {
     refuse_chatter(stations, out.before, job.course.cutter.r);
-    out.after = cutting::corrected(job.course, stations, job.compliance, job.S(), job.options,
-                                   *job.correct, part_of(progress, half, 1));
-    refuse_chatter(stations, out.after, job.course.cutter.r);
+    out.after = corrected(job, stations, *job.correct, part_of(progress, half, 1));
   }
   out.solve_seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   return out;

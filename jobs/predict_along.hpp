@@ -46,6 +46,7 @@ AlongJob read_along(Object& job, const AlongSource& source, const Definitions& d
 
 /// Stability is tested at so many stations at most unless the job says how often.
 inline constexpr int most_tests = 256;
+void choose_tests(AlongJob& job, std::size_t stations);
 
 /// Predicts the stations, and corrects them if asked to. Throws Error{NotConverged} where
 /// a correction does not converge or would correct a cut that chatters.
@@ -56,6 +57,15 @@ struct AlongResult {
 };
 AlongResult run_along(AlongJob job, const std::vector<cutting::Station>& stations,
                       const Progress& progress);
+
+/// The stations as they are, and corrected. A job that does not say so tests most_tests of them.
+std::vector<cutting::StationError> predicted(AlongJob job,
+                                             const std::vector<cutting::Station>& stations,
+                                             const Progress& progress);
+std::vector<cutting::StationError> corrected(AlongJob job,
+                                             const std::vector<cutting::Station>& stations,
+                                             const cutting::CorrectOptions& limits,
+                                             const Progress& progress);
 
 /// Throws Error{NotConverged} with the first station that chatters: no path takes its error away.
 void refuse_chatter(const std::vector<cutting::Station>& stations,

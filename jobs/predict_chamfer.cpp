@@ -22,7 +22,7 @@ using cutting::ChamferPoint;
 struct ChamferPath {
   chamfer::Result result;
   geometry::Edge edge;
-  CutRange cut;  // the last pass in the motion
+  CutRange cut;  // the pass in the motion
   std::vector<ChamferPoint> points;
   std::vector<cutting::Station> stations;
 };
@@ -59,11 +59,10 @@ Eigen::Vector3d to_centre(const ChamferJob& job, const Eigen::Vector3d& tool_axi
 /// The last pass of a job, or the one before its spring pass.
 enum class Pass { Last, BeforeSpring };
 
-ChamferPath path_of(const ChamferJob& job, Pass pass, double S, const cutting::Cutter& cutter,
-                    const Progress& progress) {
+ChamferPath path_of(const ChamferJob& job, const chamfer::Result& result, Pass pass, double S,
+                    const cutting::Cutter& cutter) {
   ChamferPath path;
-  path.result = chamfer::solve(job.job, progress);
-  const chamfer::Result& result = path.result;
+  path.result = result;
   path.edge = subject_of(job, result.tool_axis).edge;
   std::vector<CutRange> passes = cut_ranges(result.motion);
   if (pass == Pass::BeforeSpring && passes.size() > 1) passes.pop_back();
@@ -98,15 +97,13 @@ ChamferPath path_of(const ChamferJob& job, Pass pass, double S, const cutting::C
 /// The spring pass goes over what the pass before left: that stood off by its error, not where its
 /// path was. Where it was drawn in, and left nothing to cut, its own error stays, and its chatter
 /// where it chattered.
-ChamferPath spring_pass(const ChamferJob& job, const AlongJob& along, const ChamferPath& finish,
-                        const std::vector<cutting::StationError>& errors,
-                        const Progress& progress) {
-  ChamferPath path = path_of(job, Pass::Last, along.S(), along.course.cutter, progress);
+ChamferPath over(ChamferPath path, const std::vector<cutting::StationError>& errors,
+                 double radius) {
   for (std::size_t i = 0; i < path.points.size(); ++i) {
     path.points[i].earlier_centre.reset();
     if (errors[i].e)
-      path.points[i].earlier_centre = path.points[i].centre + *errors[i].e * finish.stations[i].n;
-    path.stations[i] = cutting::chamfer_station(path.edge, path.points[i], along.course.cutter.r);
+      path.points[i].earlier_centre = path.points[i].centre + *errors[i].e * path.stations[i].n;
+    path.stations[i] = cutting::chamfer_station(path.edge, path.points[i], radius);
   }
   return path;
 }
@@ -114,7 +111,10 @@ ChamferPath spring_pass(const ChamferJob& job, const AlongJob& along, const Cham
 void keep_finish(const std::vector<cutting::StationError>& finish,
                  std::vector<cutting::StationError>& spring) {
   for (std::size_t i = 0; i < spring.size(); ++i) {
-    if (!spring[i].e && finish[i].e) spring[i] = finish[i];
+    if (!spring[i].e && finish[i].e) {
+      spring[i] = finish[i];
+      spring[i].shift = 0;  // that of the finishing pass
+    }
     const std::optional<cutting::Stability>& told = finish[i].stability;
     if (told && *told != cutting::Stability::Stable) spring[i].stability = told;
   }
@@ -133,20 +133,76 @@ std::vector<double> widths(const ChamferPath& path,
   return out;
 }
 
-/// The program of the corrected path. Its own clearances are measured: a shift brings neck and
-/// holder nearer too.
-nc::Program corrected_program(const ChamferJob& job, const ChamferPath& path,
-                              const PredictedPath& predicted) {
-  Shifts shifts{predicted.position, {}, true};
+/// One pass of a job and what it leaves, as it is and, if asked for, corrected.
+struct PredictedPass {
+  ChamferPath path;
+  AlongResult result;
+};
+
+/// The pass before the spring pass. Corrected, it keeps what it leaves standing, which the spring
+/// pass takes off; where it cuts too deep no later pass can help, and it is drawn back itself.
+PredictedPass finishing_pass(ChamferPath path, const AlongJob& along, const Progress& progress) {
+  AlongJob as_it_is = along;
+  as_it_is.correct.reset();
+  PredictedPass pass{std::move(path), {}};
+  pass.result =
+      run_along(as_it_is, pass.path.stations, part_of(progress, 0, along.correct ? 0.5 : 1));
+  if (!along.correct) return pass;
+  refuse_chatter(pass.path.stations, pass.result.before, along.course.cutter.r);
+  cutting::CorrectOptions limits = *along.correct;
+  limits.only_overcut = true;
+  pass.result.after = corrected(along, pass.path.stations, limits, part_of(progress, 0.5, 1));
+  return pass;
+}
+
+/// The spring pass over the finishing pass as it is and, if asked for, over the corrected one.
+PredictedPass spring_pass(const ChamferPath& path, const AlongJob& along, const AlongResult& finish,
+                          const Progress& progress) {
+  AlongJob as_it_is = along;
+  as_it_is.correct.reset();
+  const double radius = along.course.cutter.r;
+  PredictedPass pass{over(path, finish.before, radius), {}};
+  pass.result =
+      run_along(as_it_is, pass.path.stations, part_of(progress, 0, along.correct ? 0.5 : 1));
+  keep_finish(finish.before, pass.result.before);
+  if (!along.correct) return pass;
+  refuse_chatter(pass.path.stations, pass.result.before, radius);
+  pass.result.after = corrected(along, over(path, finish.after, radius).stations, *along.correct,
+                                part_of(progress, 0.5, 1));
+  keep_finish(finish.after, pass.result.after);
+  return pass;
+}
+
+path::Motion shifted_pass(const ChamferPath& path, const std::vector<Eigen::Vector3d>& position,
+                          const std::vector<cutting::StationError>& after) {
+  Shifts shifts{position, {}, true};
+  for (std::size_t i = 0; i < path.stations.size(); ++i)
+    shifts.shift.emplace_back(-after[i].shift * path.stations[i].n);
+  return shifted(path.result.motion, path.cut, shifts, path.result.tool_axis);
+}
+
+double greatest_shift(const std::vector<cutting::StationError>& after) {
   double greatest = 0;
-  for (std::size_t i = 0; i < path.stations.size(); ++i) {
-    const double shift = predicted.result.after[i].shift;
-    shifts.shift.emplace_back(-shift * path.stations[i].n);
-    greatest = std::max(greatest, std::abs(shift));
-  }
+  for (const cutting::StationError& row : after) greatest = std::max(greatest, std::abs(row.shift));
+  return greatest;
+}
+
+/// The program of the corrected path, `finish` the pass before a spring pass. Its own clearances
+/// are measured: a shift brings neck and holder nearer too.
+nc::Program corrected_program(const ChamferJob& job, const ChamferPath& path,
+                              const PredictedPath& predicted,
+                              const std::optional<PredictedPass>& finish) {
   nc::Program program = job.program;
   program.tool_axis = path.result.tool_axis;
-  program.motion = shifted(path.result.motion, path.cut, shifts, path.result.tool_axis);
+  program.motion = shifted_pass(path, predicted.position, predicted.result.after);
+  double greatest = greatest_shift(predicted.result.after);
+  if (finish) {  // up to where the spring pass is led in, the motion is the finishing pass's
+    const path::Motion before =
+        shifted_pass(finish->path, predicted.position, finish->result.after);
+    const std::size_t end = lead_of(before, path.cut);
+    for (std::size_t i = 0; i < end; ++i) program.motion.moves[i] = before.moves[i];
+    greatest = std::max(greatest, greatest_shift(finish->result.after));
+  }
   program.comments.push_back("CORRECTED FOR TOOL DEFLECTION, GREATEST SHIFT " +
                              text(std::round(greatest * 1e4) / 1e4));
   return program;
@@ -182,20 +238,24 @@ Answer predict_chamfer(Object& job, const Value& along, const Request& request) 
     chamfer_job.job.arcs = false;
     read.warnings.emplace_back("the path is predicted, and corrected, as straight blocks");
   }
-  const bool springs = chamfer_job.job.spring_pass;
-  if (springs && read.correct)
-    refuse({.code = ErrorCode::Unsupported,
-            .field = "/along/spring_pass",
-            .value = "true",
-            .limit = "false with \"correct\": a corrected path needs no spring pass"});
-
-  ChamferPath path = path_of(chamfer_job, springs ? Pass::BeforeSpring : Pass::Last, read.S(),
-                             read.course.cutter, part_of(request.progress, 0, 0.1));
-  read.course.tool_axis = path.result.tool_axis;
-  std::vector<cutting::StationError> finish;
-  if (springs) {
-    finish = run_along(read, path.stations, part_of(request.progress, 0.1, 0.5)).before;
-    path = spring_pass(chamfer_job, read, path, finish, part_of(request.progress, 0.5, 0.55));
+  const chamfer::Result solved = chamfer::solve(chamfer_job.job, part_of(request.progress, 0, 0.1));
+  read.course.tool_axis = solved.tool_axis;
+  const auto pass_of = [&](Pass pass) {
+    return path_of(chamfer_job, solved, pass, read.S(), read.course.cutter);
+  };
+  ChamferPath path = pass_of(Pass::Last);
+  std::optional<PredictedPass> finish;
+  AlongResult result;
+  if (chamfer_job.job.spring_pass) {
+    finish =
+        finishing_pass(pass_of(Pass::BeforeSpring), read, part_of(request.progress, 0.1, 0.55));
+    PredictedPass last =
+        spring_pass(path, read, finish->result, part_of(request.progress, 0.55, 1));
+    path = std::move(last.path);
+    result = std::move(last.result);
+    result.solve_seconds += finish->result.solve_seconds;
+  } else {
+    result = run_along(read, path.stations, part_of(request.progress, 0.1, 1));
   }
   PredictedPath predicted;
   predicted.kind = "chamfer";
@@ -206,15 +266,14 @@ Answer predict_chamfer(Object& job, const Value& along, const Request& request) 
   const Eigen::Vector3d offset = to_centre(chamfer_job, path.result.tool_axis);
   for (const Eigen::Vector3d& centre : path.result.centres)
     predicted.position.push_back(centre - offset);
-  predicted.result =
-      run_along(read, path.stations, part_of(request.progress, springs ? 0.55 : 0.1, 1));
-  if (springs) keep_finish(finish, predicted.result.before);
+  predicted.result = std::move(result);
+  if (finish) predicted.finish = finish->result.after;
   predicted.width = widths(path, predicted.result.before);
 
   std::optional<nc::Program> program;
   if (read.correct) {
     predicted.width_after = widths(path, predicted.result.after);
-    program = corrected_program(chamfer_job, path, predicted);
+    program = corrected_program(chamfer_job, path, predicted, finish);
     refuse_collisions(chamfer_job, *program);
   }
   Answer answer = path_answer(read, predicted);

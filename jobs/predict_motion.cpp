@@ -50,6 +50,15 @@ Eigen::Vector3d shift_at(const Shifts& shifts, const Eigen::Vector3d& point) {
   return shift;
 }
 
+std::size_t lead_of(const path::Motion& motion, const CutRange& cut) {
+  std::size_t first = cut.from;
+  for (; first > 0; --first) {
+    const MoveKind kind = motion.moves[first - 1].kind;
+    if (kind == MoveKind::Cut || kind == MoveKind::LeadOut || kind == MoveKind::Retract) break;
+  }
+  return first;
+}
+
 path::Motion shifted(const path::Motion& motion, const CutRange& cut, const Shifts& shifts,
                      const Eigen::Vector3d& tool_axis) {
   path::Motion out = motion;
@@ -59,11 +68,7 @@ path::Motion shifted(const path::Motion& motion, const CutRange& cut, const Shif
   for (std::size_t i = cut.from; i < cut.to; ++i)
     move_by(out.moves[i], shift_at(shifts, motion.moves[i].to));
   const Eigen::Vector3d first = shift_at(shifts, point_before(cut.from));
-  for (std::size_t i = cut.from; i-- > 0;) {
-    const MoveKind kind = motion.moves[i].kind;
-    if (kind == MoveKind::Cut || kind == MoveKind::LeadOut || kind == MoveKind::Retract) break;
-    move_by(out.moves[i], first);
-  }
+  for (std::size_t i = lead_of(motion, cut); i < cut.from; ++i) move_by(out.moves[i], first);
   const Eigen::Vector3d last = shift_at(shifts, motion.moves[cut.to - 1].to);
   for (std::size_t i = cut.to; i < motion.moves.size(); ++i) {
     const MoveKind kind = motion.moves[i].kind;

@@ -23,6 +23,9 @@ struct Shifts {
 /// The shift at the nearest place of the polyline, linear between its points.
 Eigen::Vector3d shift_at(const Shifts& shifts, const Eigen::Vector3d& point);
 
+/// The first of the moves that lead the tool to a range of cuts.
+std::size_t lead_of(const path::Motion& motion, const CutRange& cut);
+
 /// The motion with one range of cuts shifted. What leads to it and away from it goes along, as far
 /// as the moves before, and after it the lead-out and the way along the tool axis.
 path::Motion shifted(const path::Motion& motion, const CutRange& cut, const Shifts& shifts,

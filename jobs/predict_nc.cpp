@@ -14,6 +14,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+constexpr double same_axis = 1e-5;  // as far as a program's angles are rounded
+
 Vector3d bottom_normal(const Vector3d&) {
   return Vector3d::UnitZ();
 }
@@ -111,7 +113,15 @@ Answer predict_nc(Object& job, const Value& along, const Request& request) {
   if (const std::optional<Value> normal = object.optional("normal"))
     work.normal = [n = normal->direction()](const Vector3d&) { return n; };
   const nc::Reading reading = nc::read(program);
+  work.program = program_of(reading, number);
   if (reading.tool_axis) work.tool_axis = reading.tool_axis->normalized();
+  if (const std::optional<Value> given = object.optional("tool_axis")) {
+    const Vector3d axis = given->direction();
+    if (reading.tool_axis && !axis.isApprox(work.tool_axis, same_axis))
+      given->refuse("the tool axis of the program's plane, or left out");
+    work.tool_axis = axis;
+    if (!reading.tool_axis) work.program.tilted = nc::TiltedOutput::WorkFrame;
+  }
   constexpr double most_tilt = 1e-6;  // sine of the axis above the level
   if (!(work.tool_axis.z() > most_tilt))
     refuse({.code = ErrorCode::Unsupported,
@@ -119,7 +129,6 @@ Answer predict_nc(Object& job, const Value& along, const Request& request) {
             .limit = "a tool that comes from above: the stock is a height map"});
   work.motion = reading.motion;
   work.rpm = reading.spindle_speed;
-  work.program = program_of(reading, number);
   return predict_work(job, object, std::move(work), resolve_path_tool(job, request.definitions),
                       request);
 }

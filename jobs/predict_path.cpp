@@ -150,10 +150,10 @@ Points centres_after(const PredictedPath& path) {
   return out;
 }
 
-Points shifts_of(const PredictedPath& path) {
+Points shifts_of(const PredictedPath& path, const std::vector<StationError>& after) {
   Points out;
-  for (std::size_t i = 0; i < path.stations.size(); ++i)
-    out.push_back(-path.result.after[i].shift * path.stations[i].n);
+  for (std::size_t i = 0; i < after.size(); ++i)
+    out.push_back(-after[i].shift * path.stations[i].n);
   return out;
 }
 
@@ -161,12 +161,14 @@ void add_corrected(const AlongJob& job, const PredictedPath& path, Answer& answe
   const std::vector<StationError>& rows = path.result.after;
   answer.document["corrected"] = {{"report", summary(job, rows, path.width_after)},
                                   {"stability", stability_document(rows)}};
-  const Points shift = shifts_of(path);
+  const Points shift = shifts_of(path, rows);
   Points position = path.position;
   for (std::size_t i = 0; i < position.size(); ++i) position[i] += shift[i];
   answer.arrays.push_back(points_array("/corrected/position", position));
   answer.arrays.push_back(points_array("/corrected/centre", centres_after(path)));
   answer.arrays.push_back(points_array("/corrected/shift", shift));
+  if (!path.finish.empty())
+    answer.arrays.push_back(points_array("/corrected/finish_shift", shifts_of(path, path.finish)));
   add_rows("/corrected", rows, job.options.uncertainty.has_value(), answer);
   if (!path.width_after.empty())
     answer.arrays.push_back(numbers_array("/corrected/width", path.width_after));
@@ -223,6 +225,9 @@ std::string path_csv(const PredictedPath& path) {
   if (chamfer) out += ",width_mm";
   if (corrected) out += ",shift_x_mm,shift_y_mm,shift_z_mm,error_after_mm";
   if (corrected && chamfer) out += ",width_after_mm";
+  if (!path.finish.empty()) out += ",finish_shift_x_mm,finish_shift_y_mm,finish_shift_z_mm";
+  const Points shift = shifts_of(path, path.result.after);
+  const Points finish_shift = shifts_of(path, path.finish);
   const auto cell = [&out](double value) { out += std::isnan(value) ? "," : "," + text(value); };
   for (std::size_t i = 0; i < path.stations.size(); ++i) {
     const StationError& row = path.result.before[i];
@@ -238,10 +243,11 @@ std::string path_csv(const PredictedPath& path) {
     if (chamfer) cell(path.width[i]);
     if (!corrected) continue;
     const StationError& after = path.result.after[i];
-    const Eigen::Vector3d shift = -after.shift * path.stations[i].n;
-    for (const double value : shift) cell(value);
+    for (const double value : shift[i]) cell(value);
     cell(error_of(after));
     if (chamfer) cell(path.width_after[i]);
+    if (path.finish.empty()) continue;
+    for (const double value : finish_shift[i]) cell(value);
   }
   return out + "\n";
 }

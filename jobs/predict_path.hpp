@@ -15,11 +15,12 @@ struct PredictedPath {
   std::vector<Eigen::Vector3d> position;  ///< control point of the program at each station
   std::vector<cutting::Station> stations;
   AlongResult result;
-  std::vector<std::size_t> entries;        ///< stations that the tool comes to without cutting
-  bool is_closed = false;                  ///< the last station goes over into the first
-  std::vector<double> parameter;           ///< of a chamfer: profile parameter
-  std::vector<double> width, width_after;  ///< of a chamfer: predicted [mm]
-  double wanted_width = 0;                 ///< of a chamfer
+  std::vector<cutting::StationError> finish;  ///< of a spring pass corrected: the pass before it
+  std::vector<std::size_t> entries;           ///< stations that the tool comes to without cutting
+  bool is_closed = false;                     ///< the last station goes over into the first
+  std::vector<double> parameter;              ///< of a chamfer: profile parameter
+  std::vector<double> width, width_after;     ///< of a chamfer: predicted [mm]
+  double wanted_width = 0;                    ///< of a chamfer
 };
 
 /// Result document with its arrays.

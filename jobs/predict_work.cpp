@@ -204,8 +204,7 @@ AlongResult run(AlongJob& job, const HeightMap& stock, const std::vector<Place>&
                 const Progress& progress) {
   const auto begin = std::chrono::steady_clock::now();
   const std::vector<Station> stations = stations_of(places);
-  if (job.options.stability_every < 1)
-    job.options.stability_every = static_cast<int>((stations.size() + most_tests - 1) / most_tests);
+  choose_tests(job, stations.size());
   AlongResult out;
   out.before = follow(job, stock, places, part_of(progress, 0, job.correct ? 0.4 : 1),
                       [](cutting::Follower& f, const Station& s) { return f.at(s); });
@@ -288,10 +287,6 @@ Answer predict_work(Object& job, Object& along, WorkPath work, const ResolvedToo
     refuse({.field = "/correct/aim", .value = "width", .limit = "\"surface\" but for a chamfer"});
 
   read.course.tool_axis = work.tool_axis;
-  if (read.correct && !work.tool_axis.isApprox(Vector3d::UnitZ()))
-    refuse({.code = ErrorCode::Unsupported,
-            .field = "/correct",
-            .limit = "a program whose tool stands along Z"});
   work.motion = path::linearised(work.motion, arc_tolerance);
   const Vector3d to_centre =
       control == Control::Tip ? Vector3d(radius * work.tool_axis) : Vector3d(Vector3d::Zero());
@@ -317,6 +312,7 @@ Answer predict_work(Object& job, Object& along, WorkPath work, const ResolvedToo
   if (request.format == "nc") {
     nc::Program program = work.program;
     program.motion = corrected_motion(work, places, path.result.after, to_centre);
+    program.tool_axis = work.tool_axis;
     program.comments.emplace_back("CORRECTED FOR TOOL DEFLECTION");
     answer.text = nc::write(program);
   }

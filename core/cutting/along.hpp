@@ -41,6 +41,7 @@ struct CorrectOptions {
   int max_shifts = 6;
   double largest_shift = 0.25;  ///< of the radius; beyond it the engagement is another one
   bool by_borders = false;      ///< the mean error at Station::borders in place of that along n
+  bool only_overcut = false;    ///< what is left standing stays: a later pass takes it off
 };
 
 /// What one station gives. Frame: work.

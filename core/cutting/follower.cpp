@@ -163,9 +163,10 @@ StationError Follower::corrected_at(const Station& station, const CorrectOptions
   const double before = *now.e;
   const double original = left_of(station, now, 0, limits.by_borders);
   const double limit = limit_of(limits, original);
+  const bool stays = limits.only_overcut && original >= 0;
   double s = 0, s_before = 0;
   double left = original, left_before = 0;
-  for (int shifts = 0; std::abs(left) > limit; ++shifts) {
+  for (int shifts = 0; !stays && std::abs(left) > limit; ++shifts) {
     const double slope = shifts == 0 ? -1 : (left - left_before) / (s - s_before);
     const double next = s - left / slope;
     const bool is_lost = !(slope < 0) || !(std::abs(next) <= limits.largest_shift * radius);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/nc/reader.hpp"
 #include "jobs/answer.hpp"
 #include "tests/jobs/predict_refusal.hpp"
 
@@ -181,6 +182,67 @@ TEST(PredictChamfer, SpringPassTakesMostOfTheErrorAway) {
   }
 }
 
+// The pass that finishes is the one that is shifted: what is left after it is within the limit, by
+// less of a shift than without the spring pass, and the finishing pass stays where it was.
+TEST(PredictChamfer, CorrectsTheSpringPass) {
+  Json job = chamfer_job();
+  job["along"]["spring_pass"] = true;
+  job["correct"] = {{"residual", 1e-4}};
+  const Json result = run(job);
+  ASSERT_EQ(result["status"], "ok") << result.dump(1);
+  Json plain = job;
+  plain["along"]["spring_pass"] = false;
+  const Json alone = run(plain);
+  const auto length = [](const Json& row) {
+    return Eigen::Vector3d(row[0], row[1], row[2]).norm();
+  };
+  int moved = 0;
+  for (std::size_t i = 0; i < 12; ++i) {
+    SCOPED_TRACE(i);
+    EXPECT_LE(std::abs(result["corrected"]["error"][i].get<double>()), 1e-4);
+    EXPECT_LT(length(result["corrected"]["shift"][i]), length(alone["corrected"]["shift"][i]));
+    EXPECT_EQ(length(result["corrected"]["finish_shift"][i]), 0);
+    moved += length(result["corrected"]["shift"][i]) > 0 ? 1 : 0;
+  }
+  EXPECT_GT(moved, 6);
+  // Of the program only the last pass has moved.
+  const Answer written = answer(job.dump(), "nc", NoDefinitions());
+  ASSERT_FALSE(is_error(written)) << written.document;
+  const Answer nominal = answer(job["along"].dump(), "nc", NoDefinitions());
+  const std::vector<path::Move> was = nc::read(nominal.text).motion.moves;
+  const std::vector<path::Move> is = nc::read(written.text).motion.moves;
+  ASSERT_EQ(is.size(), was.size());
+  std::size_t same = 0;
+  while (same < is.size() && is[same].to == was[same].to) ++same;
+  EXPECT_GT(same, 12U);              // the way in and a whole round
+  EXPECT_LT(same, is.size() - 12U);  // another round and the way out
+}
+
+// Where the finishing pass cuts too deep nothing is left for the spring pass: there it is drawn
+// back itself, elsewhere it stays, and the edge ends within the limit all round.
+TEST(PredictChamfer, DrawsBackAFinishThatCutsTooDeep) {
+  Json job = chamfer_job();
+  job["speed_rpm"] = 15000;
+  job["correct"] = {{"residual", 1e-4}};
+  const Json finish = run(job);
+  job["along"]["spring_pass"] = true;
+  const Json result = run(job);
+  ASSERT_EQ(result["status"], "ok") << result.dump(1);
+  int drawn_back = 0;
+  for (std::size_t i = 0; i < 12; ++i) {
+    SCOPED_TRACE(i);
+    EXPECT_LE(std::abs(result["corrected"]["error"][i].get<double>()), 1e-4);
+    const Json &shift = result["corrected"]["finish_shift"][i], &n = result["normal"][i];
+    double out = 0;
+    for (std::size_t c = 0; c < 3; ++c) out += shift[c].get<double>() * n[c].get<double>();
+    const bool too_deep = finish["error"][i].get<double>() < -1e-4;
+    EXPECT_EQ(out > 0, too_deep);
+    EXPECT_GE(out, 0);
+    drawn_back += too_deep ? 1 : 0;
+  }
+  EXPECT_GE(drawn_back, 1);
+}
+
 // A rigid tool leaves nothing: the spring pass has no more than the cusps of the feed to cut.
 TEST(PredictChamfer, SpringPassOfARigidToolChangesNothing) {
   Json job = chamfer_job();
@@ -224,9 +286,6 @@ INSTANTIATE_TEST_SUITE_P(
                        "/along/width"},
         PredictRefusal{"FeedBeyondTheTool", R"({"along": {"feed": 500000}})", "bad_input",
                        "/along/feed"},
-        PredictRefusal{"SpringPassCorrected",
-                       R"({"along": {"spring_pass": true}, "correct": true})", "unsupported",
-                       "/along/spring_pass"},
         PredictRefusal{"TooManyPlaces", R"({"N": 65536, "nq": 1024})", "bad_input", "/N"},
         PredictRefusal{"UnknownKey", R"({"steel": 1})", "bad_input", "/steel"},
         PredictRefusal{"NegativeCoefficient", R"({"material": {"Ktc": -1}})", "bad_input",

@@ -105,16 +105,22 @@ TEST(PredictProgram, WritesTheCorrectedProgram) {
     }
 }
 
-// Bottom R of the oracle's cycle 15, in a block that leaves something on its wall and floor.
-// A work plane leaning by 20 degrees: the ball's centre stands off the tip along the leaning axis.
-TEST(PredictProgram, FollowsATiltedTool) {
+// A work plane leaning by so many degrees over the flat top of a block.
+Json tilted_job(int degrees) {
   Json job = program_job();
-  job.erase("correct");
   job["along"]["program"] =
-      "%\nO1\nG21 G90 G17\nT12 M6\nS8000 M3\nG54\nG68.2 X0. Y0. Z0. I90. J20. K-90.\nG53.1\n"
-      "G0 G43 H12 Z20.\nG0 X0. Y-6.\nG0 Z5.\nG1 Z-0.1 F300\nG1 Y6. F800\nG0 Z20.\nG69\nM30\n%\n";
+      "%\nO1\nG21 G90 G17\nT12 M6\nS8000 M3\nG54\nG68.2 X0. Y0. Z0. I90. J" +
+      std::to_string(degrees) +
+      ". K-90.\nG53.1\nG0 G43 H12 Z20.\nG0 X0. Y-6.\nG0 Z5.\nG1 Z-0.1 F300\nG1 Y6. F800\n"
+      "G0 Z20.\nG69\nM30\n%\n";
   job["along"]["stock"] = {{"min", {-12, -12, -6}}, {"max", {12, 12, 0}}, {"cell", 0.2}};
   job["along"]["step"] = 3;
+  return job;
+}
+
+// The ball's centre stands off the tip along the leaning axis.
+TEST(PredictProgram, FollowsATiltedTool) {
+  const Json job = tilted_job(20);
   const Json result = run(job);
   ASSERT_EQ(result["status"], "ok") << result.dump().substr(0, 600);
   ASSERT_GT(result["centre"].size(), 2U);
@@ -125,10 +131,47 @@ TEST(PredictProgram, FollowsATiltedTool) {
     EXPECT_NEAR(centre[2].get<double>() - tip[2].get<double>(), r * std::cos(lean), 1e-9);
     EXPECT_GT(result["force"][i][2].get<double>(), 0);
   }
-  job["correct"] = true;
-  EXPECT_EQ(run(job)["error"]["field"], "/correct");
 }
 
+// The corrected program of a leaning tool, predicted itself, leaves the shift and what the
+// correction said is left: both along the same normal. It says its plane, and moves nothing else.
+TEST(PredictProgram, CorrectsATiltedTool) {
+  const double lean = 25 * 3.14159265358979 / 180;
+  Json job = tilted_job(25);
+  const Json before = run(job);
+  job["correct"] = {{"residual", 2e-4}, {"relative", 0.0}};
+  const Json result = run(job);
+  ASSERT_EQ(result["status"], "ok") << result.dump().substr(0, 600);
+  const Json& after = result["corrected"];
+  const Answer written = answer(job.dump(), "nc", NoDefinitions());
+  ASSERT_FALSE(is_error(written)) << written.document;
+  EXPECT_NE(written.text.find("G68.2"), std::string::npos);
+  const nc::Reading reading = nc::read(written.text);
+  ASSERT_TRUE(reading.tool_axis);
+  EXPECT_NEAR(reading.tool_axis->x(), std::sin(lean), 1e-6);
+  Json again = job;
+  again.erase("correct");
+  again["along"]["program"] = written.text;
+  again["along"]["step"] = 3.1;  // its blocks are the stations, a little longer for the shift
+  const Json predicted = run(again);
+  ASSERT_EQ(predicted["status"], "ok") << predicted.dump().substr(0, 600);
+  ASSERT_EQ(predicted["error"].size(), result["error"].size());
+  int compared = 0;
+  for (std::size_t i = 0; i < predicted["error"].size(); ++i) {
+    EXPECT_EQ(result["error"][i], before["error"][i]);
+    if (after["error"][i].is_null()) continue;
+    EXPECT_LE(std::abs(after["error"][i].get<double>()), 2e-4);
+    const double shift = -after["shift"][i][2].get<double>();  // down, into the flat floor
+    EXPECT_NEAR(after["shift"][i][0].get<double>(), 0, 1e-12);
+    EXPECT_GT(shift, 1e-3);
+    if (predicted["error"][i].is_null()) continue;
+    EXPECT_NEAR(predicted["error"][i].get<double>() - shift, after["error"][i].get<double>(), 5e-4);
+    ++compared;
+  }
+  EXPECT_GE(compared, 2);
+}
+
+// Bottom R of the oracle's cycle 15, in a block that leaves something on its wall and floor.
 TEST(PredictCycle, TakesTheNormalsOfTheCycle) {
   std::ifstream in(RIDGELINE_TESTS "/oracle/cycles/15_bottomR_straight_1_ball.json");
   const Json oracle = Json::parse(in);

@@ -91,6 +91,26 @@ TEST_F(LoopbackPredict, APathItsCorrectionAndItsProgramComeAsLocally) {
   EXPECT_EQ(answer.at("corrected").at("position").size(), answer.at("position").size());
   EXPECT_GT(answer.at("position").size(), 8u);
   both(job, "nc");
+  job["along"]["spring_pass"] = true;
+  job["dynamics"] = Json::parse(R"({"modes": [[2200, 0.03, 4000]]})");
+  job["N"] = 512;  // so thin a cut takes more than the coarse ones
+  job["nq"] = 128;
+  EXPECT_EQ(both(job, "json").at("corrected").at("finish_shift").size(),
+            answer.at("position").size());
+  both(job, "nc");
+}
+
+TEST_F(LoopbackPredict, ATiltedProgramIsCorrectedAsLocally) {
+  Json job = coarse(example("predict/program.json"));
+  job["along"]["program"] =
+      "%\nO1\nG90\nS8000 M3\nG54\nG68.2 X0. Y0. Z0. I90. J20. K-90.\nG53.1\nG0 Z20.\n"
+      "G0 X9.44 Y8.\nG0 Z9.\nG1 Z3.308 F300.\nG1 Y12. F1600.\nG0 Z20.\nG69\nM30\n%\n";
+  job["along"]["stock"]["cell"] = 0.2;
+  job["along"]["step"] = 2;
+  job["along"]["normal"] = {0, 0, 1};
+  job["correct"] = true;
+  EXPECT_GT(both(job, "json").at("corrected").at("report").at("stations_cutting"), 0);
+  both(job, "nc");
 }
 
 TEST_F(LoopbackPredict, ARefusalKeepsItsCodeFieldAndLimit) {
