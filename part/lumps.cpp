@@ -116,12 +116,19 @@ void measure(const Placed& part, const Envelope& envelope, Lump& lump) {
   const double cut = cut_angle(model, mouth);
   for (const auto& [number, sense] : mouth) {
     const Edge& edge = model.edges[static_cast<std::size_t>(number)];
-    for (const Eigen::Vector3d& p : edge.points)
-      if (envelope.is_inside(p, near_envelope)) lump.is_measured = false;
+    const auto theta = [cut](const Eigen::Vector3d& p) {
+      return std::remainder(std::atan2(p.y(), p.x()) - cut - pi, 2 * pi);
+    };
+    for (std::size_t i = 0; i < edge.points.size(); ++i) {
+      if (envelope.is_inside(edge.points[i], near_envelope)) lump.is_measured = false;
+      if (i == 0 || radius_of(edge.points[i]) < on_envelope) continue;
+      // All round the axis: the end of E belongs to the lump, which its mouth does not tell.
+      if (std::abs(theta(edge.points[i]) - theta(edge.points[i - 1])) > pi)
+        lump.is_measured = false;
+    }
     const double term =
         part.integral(number, [&](const Eigen::Vector3d& p, const Eigen::Vector3d& dp) {
-          const double theta = std::remainder(std::atan2(p.y(), p.x()) - cut - pi, 2 * pi);
-          return (p.x() * p.x() + p.y() * p.y()) / 2 * theta * dp.z();
+          return (p.x() * p.x() + p.y() * p.y()) / 2 * theta(p) * dp.z();
         });
     volume += sense * term;
   }

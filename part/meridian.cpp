@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
 
 #include "part/greatest.hpp"
 #include "part/profile_fit.hpp"
@@ -202,32 +203,79 @@ void add_tube(const Placed& part, const Face& face, int number, std::vector<Meri
   }
 }
 
-/// The edge that runs along the meridian farthest: a seam, or a cut through the axis.
-int longest_edge(const Placed& part, const Face& face) {
-  int best = -1;
-  double most = 0;
+/// Edges by how far they run along the meridian, those that run across it left out: a seam first,
+/// or a cut through the axis.
+std::vector<int> edges_along(const Placed& part, const Face& face) {
+  struct Run {
+    double along;
+    int edge;
+  };
+  std::vector<Run> runs;
   for_each_edge(face, [&](int number) {
     const Edge& edge = part.model().edges[static_cast<std::size_t>(number)];
-    double along = 0;
+    Run run{0, number};
     for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
-      along += std::hypot(radius_of(edge.points[i + 1]) - radius_of(edge.points[i]),
-                          edge.points[i + 1].z() - edge.points[i].z());
+      run.along += std::hypot(radius_of(edge.points[i + 1]) - radius_of(edge.points[i]),
+                              edge.points[i + 1].z() - edge.points[i].z());
     }
-    if (along <= most) return;
-    most = along;
-    best = number;
+    const auto is_same = [number](const Run& other) { return other.edge == number; };
+    if (run.along > same_place && std::ranges::none_of(runs, is_same)) runs.push_back(run);
   });
-  return best;
+  std::ranges::stable_sort(runs, std::ranges::greater(), &Run::along);
+  std::vector<int> edges;
+  for (const Run& run : runs) edges.push_back(run.edge);
+  return edges;
+}
+
+bool is_covered(const Point& p, const std::vector<FittedPiece>& pieces) {
+  return std::ranges::any_of(pieces, [&](const FittedPiece& piece) {
+    if (p.z < piece.z0 - same_place || p.z > piece.z1 + same_place) return false;
+    const double slope = units::slope_at(piece.curve, std::clamp(p.z, piece.z0, piece.z1));
+    return std::abs(units::radius_at(piece.curve, p.z) - p.r) < 1e-3 * std::hypot(1, slope);
+  });
+}
+
+/// Where along an edge, t from `in` to `out`, the pieces end.
+double end_of_cover(const std::function<Point(double)>& profile,
+                    const std::vector<FittedPiece>& pieces, double in, double out) {
+  for (int k = 0; k < 40; ++k) {
+    const double middle = std::midpoint(in, out);
+    (is_covered(profile(middle), pieces) ? in : out) = middle;
+  }
+  return out;
+}
+
+/// The meridian of a free-form face by its edges: of each after the first what the ones before do
+/// not cover, such as the rest beyond a slot that cuts the seam short.
+std::vector<FittedPiece> free_profile(const Placed& part, const Face& face) {
+  std::vector<FittedPiece> pieces;
+  for (const int edge : edges_along(part, face)) {
+    const std::function<Point(double)> profile = [&](double t) {
+      const Eigen::Vector3d p = part.edge_point(edge, t);
+      return Point{radius_of(p), p.z()};
+    };
+    constexpr int n = 64;
+    std::vector<FittedPiece> found;
+    const auto t = [](int i) { return static_cast<double>(i) / n; };
+    const auto is_open = [&](int i) { return !is_covered(profile(t(i)), pieces); };
+    for (int i = 0; i <= n; ++i) {
+      if (!is_open(i)) continue;
+      int last = i;
+      while (last < n && is_open(last + 1)) ++last;
+      const double from = i == 0 ? 0 : end_of_cover(profile, pieces, t(i - 1), t(i));
+      const double to = last == n ? 1 : end_of_cover(profile, pieces, t(last + 1), t(last));
+      const auto run = [&](double x) { return profile(std::lerp(from, to, x)); };
+      const std::vector<FittedPiece> more = fitted_along(run, fit_tolerance);
+      found.insert(found.end(), more.begin(), more.end());
+      i = last;
+    }
+    pieces.insert(pieces.end(), found.begin(), found.end());
+  }
+  return pieces;
 }
 
 void add_free(const Placed& part, const Face& face, int number, std::vector<Meridian>& found) {
-  const int edge = longest_edge(part, face);
-  if (edge < 0) return;
-  const auto profile = [&](double t) {
-    const Eigen::Vector3d p = part.edge_point(edge, t);
-    return Point{radius_of(p), p.z()};
-  };
-  for (const FittedPiece& piece : fitted_along(profile, fit_tolerance)) {
+  for (const FittedPiece& piece : free_profile(part, face)) {
     const double z = (piece.z0 + piece.z1) / 2;
     const double r = units::radius_at(piece.curve, z);
     const auto nearest = std::min_element(

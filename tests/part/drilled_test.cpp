@@ -130,5 +130,15 @@ TEST(Drilled, ADomeWithASlotLeavesNoStairs) {
   expect_closed(product);
 }
 
+// The mouth of what the slanted cut removes goes all round the axis.
+TEST(Drilled, ASlantedEndIsExplainedWhole) {
+  const gp_Ax2 slanted(gp_Pnt(-50, -50, 70), gp_Dir(std::sin(0.4), 0, std::cos(0.4)),
+                       gp_Dir(std::cos(0.4), 0, -std::sin(0.4)));
+  const TopoDS_Shape above = BRepPrimAPI_MakeBox(slanted, 150, 150, 90).Shape();
+  const units::Product product = read(cut(cylinder({0, 0, 0}, 20, 100), above));
+  EXPECT_EQ(product.faces.size(), 1u);
+  expect_closed(product);
+}
+
 }  // namespace
 }  // namespace ridgeline::part

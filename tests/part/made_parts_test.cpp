@@ -1,6 +1,7 @@
 // Files that Open CASCADE writes here: units, several solids, free-form surfaces.
 
 #include <gtest/gtest.h>
+#include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
@@ -144,6 +145,13 @@ TEST(MadeParts, AMeridianOfManySpansClosesWithoutARemainder) {
   EXPECT_NEAR(product.volume, volume, 1e-7 * volume);
   EXPECT_NEAR(units::volume(product.shadow), volume, 1e-6 * volume);
   EXPECT_TRUE(product.remainders.empty());
+  // A slot that cuts the seam short leaves the half section as it was.
+  const TopoDS_Shape slot = BRepPrimAPI_MakeBox(gp_Pnt(-60, -2, 70), 120, 4, 60).Shape();
+  const units::Product slotted =
+      read_product(step_of({BRepAlgoAPI_Cut(solid, slot).Shape()})).product;
+  EXPECT_NEAR(units::volume(slotted.shadow), volume, 1e-6 * volume);
+  EXPECT_EQ(slotted.faces.size(), 1u);
+  EXPECT_TRUE(slotted.remainders.empty());
 }
 
 }  // namespace
