@@ -10,6 +10,7 @@
 #include "core/units/offset.hpp"
 #include "core/units/overlay.hpp"
 #include "core/units/tolerance.hpp"
+#include "jobs/units_area.hpp"
 #include "jobs/units_nc.hpp"
 #include "jobs/units_tilted.hpp"
 
@@ -21,7 +22,6 @@ using nc::LatheHole;
 using nc::LatheMove;
 using nc::LatheProgram;
 using nc::LatheStep;
-using units::FaceEdge;
 using units::Hole;
 using units::MilledFace;
 using units::Point;
@@ -33,7 +33,7 @@ using units::Unit;
 
 constexpr double along = 1 - 1e-9;    // cosine: along the axis
 constexpr double breakthrough = 0.5;  // [mm]
-constexpr double clear = 2;           // [mm]
+constexpr double clear = 2;           // [mm] above the work
 constexpr double row_share = 0.7;     // of the cutter's diameter from row to row
 constexpr double chord = 0.005;       // [mm] of arcs that are milled in lines
 
@@ -77,20 +77,9 @@ std::optional<LatheHole> placed(const Hole& hole, const LatheFrame& frame, doubl
   return out;
 }
 
-/// The plane of a milled bottom as the machine sees it: a to the right, b up, h towards the tool.
-struct Plane {
-  bool is_radial = true;
-  double c = 0;                    ///< spindle angle [degrees]
-  Vector3d a, b, h;                ///< unit, machine frame
-  double shift = 0;                ///< of b into the half plane of regions
-  std::array<double, 2> origin{};  ///< along a and b: what coordinates count from
-
-  Point in(const Vector3d& p) const { return {p.dot(b) + shift, p.dot(a)}; }
-};
-
-std::optional<Plane> plane_of(const MilledFace& face, const LatheFrame& frame) {
+std::optional<MillingPlane> plane_of(const MilledFace& face, const LatheFrame& frame) {
   const Vector3d n = frame.direction(face.normal);
-  Plane plane;
+  MillingPlane plane;
   plane.h = n;
   if (n.z() > along) {
     plane.is_radial = false;
@@ -105,83 +94,10 @@ std::optional<Plane> plane_of(const MilledFace& face, const LatheFrame& frame) {
   return plane;
 }
 
-/// Does the work end at this edge, or does material stand behind it?
-bool is_open(const units::Product& product, const FaceEdge& edge, const Vector3d& outwards) {
-  constexpr double step = 0.02;  // [mm]
-  const Vector3d p = (edge.start + edge.end) / 2 + step * outwards;
-  return !units::covers(product.shadow, {std::hypot(p.x(), p.y()), p.z()});
-}
-
-/// The area that the cutter may cover: the bottom, and beyond its open edges.
-Region area_of(const units::Product& product, const MilledFace& face, const LatheFrame& frame,
-               Plane& plane, double R) {
-  double least = 0;
-  for (const auto& loop : face.outline)
-    for (const FaceEdge& edge : loop)
-      least = std::min(
-          {least, frame.point(edge.start).dot(plane.b), frame.point(edge.end).dot(plane.b)});
-  plane.shift = 1000 + 4 * R - least;
-  const Vector3d right = plane.a;
-  const Vector3d up = plane.b;
-  const bool is_seen_from_outside = (right.y() * up.z() - right.z() * up.y()) * plane.h.x() +
-                                        (right.z() * up.x() - right.x() * up.z()) * plane.h.y() +
-                                        (right.x() * up.y() - right.y() * up.x()) * plane.h.z() >
-                                    0;
-  std::vector<units::Contour> loops;
-  std::vector<Region> parts;
-  for (std::size_t l = 0; l < face.outline.size(); ++l) {
-    units::Contour loop;
-    for (const FaceEdge& edge : face.outline[l]) {
-      Segment row{plane.in(frame.point(edge.start)), plane.in(frame.point(edge.end)), {}};
-      if (edge.is_arc) {
-        const Point centre = plane.in(frame.point(edge.centre));
-        const bool is_clockwise = edge.is_clockwise == is_seen_from_outside;
-        row.arc = Segment::Round{centre, std::hypot(row.start.r - centre.r, row.start.z - centre.z),
-                                 is_clockwise ? Sense::Clockwise : Sense::CounterClockwise};
-      }
-      loop.push_back(row);
-    }
-    loops.push_back(std::move(loop));
-  }
-  parts.push_back(units::region_of(loops));
-  for (const auto& loop : face.outline) {
-    for (const FaceEdge& edge : loop) {
-      const Vector3d t = edge.end - edge.start;
-      if (edge.is_arc || t.norm() < 1e-6) continue;
-      const Vector3d n = face.normal;
-      Vector3d side(t.y() * n.z() - t.z() * n.y(), t.z() * n.x() - t.x() * n.z(),
-                    t.x() * n.y() - t.y() * n.x());
-      side.normalize();
-      const Point middle =
-          plane.in(frame.point(Vector3d((edge.start + edge.end) / 2 + 0.02 * side)));
-      if (units::covers(parts.front(), middle)) side = -side;
-      if (!is_open(product, edge, side)) continue;
-      const double by = R + clear;
-      const Vector3d over = t.normalized() * by;
-      units::Contour wing;
-      const std::vector<Vector3d> corners{edge.start - over, edge.end + over,
-                                          edge.end + over + by * side,
-                                          edge.start - over + by * side};
-      // a wing as long as the edge; it grows over its ends only where they are open too
-      const std::vector<Vector3d> plain{edge.start, edge.end, edge.end + by * side,
-                                        edge.start + by * side};
-      const bool ends_open =
-          is_open(product, {edge.start - over, edge.start - over}, Vector3d::Zero()) &&
-          is_open(product, {edge.end + over, edge.end + over}, Vector3d::Zero());
-      const std::vector<Vector3d>& used = ends_open ? corners : plain;
-      for (std::size_t i = 0; i < 4; ++i)
-        wing.push_back(
-            {plane.in(frame.point(used[i])), plane.in(frame.point(used[(i + 1) % 4])), {}});
-      parts.push_back(units::region_of(wing));
-    }
-  }
-  return units::union_of(parts);
-}
-
 /// Moves of a milling step in the machine's axes.
 class Miller {
 public:
-  Miller(const Plane& plane, double bottom, double feed, LatheStep& step)
+  Miller(const MillingPlane& plane, double bottom, double feed, LatheStep& step)
       : plane_(plane), bottom_(bottom), feed_(feed), step_(step) {}
 
   void rapid(const Point& p, double height) { add(LatheMove::Kind::Rapid, p, height, 0); }
@@ -216,7 +132,7 @@ private:
     move.y = b;
     step_.moves.push_back(move);
   }
-  const Plane& plane_;
+  const MillingPlane& plane_;
   double bottom_, feed_;
   LatheStep& step_;
 };
@@ -333,7 +249,7 @@ void add_mill_steps(const units::Product& product, const Unit& unit, const Lathe
   const auto give_up = [&](const std::string& why) {
     notes.push_back(fmt::format("unit {}: {}; no path", unit.number, why));
   };
-  std::optional<Plane> plane = plane_of(face, frame);
+  std::optional<MillingPlane> plane = plane_of(face, frame);
   if (face.outline.empty()) return give_up("its outline is not known");
   std::optional<TiltedPlane> tilted;
   if (!plane) {
@@ -341,14 +257,14 @@ void add_mill_steps(const units::Product& product, const Unit& unit, const Lathe
         unit, tilted_plane(frame.point(face.point), frame.direction(face.normal), program), control,
         notes);
     if (!tilted) return;
-    plane = Plane{false, 0, tilted->x, tilted->y, tilted->z, 0};
+    plane = MillingPlane{false, 0, tilted->x, tilted->y, tilted->z, 0};
   }
   if (unit.tools.empty()) return give_up("it has no tool");
   const ToolRow& row = unit.tools.front();
   const double D = row.nominal_diameter;
   if (!(D > 0)) return give_up("its cutter has no diameter");
   if (!(row.depth_of_cut >= 0.01)) return give_up("its depth of cut is below 0.01 mm");
-  const Region area = area_of(product, face, frame, *plane, D / 2);
+  const Region area = milled_area(product, face, frame, *plane, D / 2);
   Region centres = units::shrunk(area, D / 2);
   if (units::is_empty(centres)) centres = units::shrunk(area, 0.995 * D / 2);
   if (units::is_empty(centres))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/base/error.hpp"
 #include "core/units/overlay.hpp"
@@ -147,6 +148,9 @@ std::optional<Hole> axis_hole(const Region& bore, bool front_open, bool back_ope
     hole.diameter = 2 * r;
     hole.bottom = has_cone ? HoleBottom::Cone : HoleBottom::Flat;
     hole.depth = std::abs(far_end(wall) - hole.start.z());
+    for (const Cell& cell : std::span(cells).first(cells.size() - (has_cone ? 1 : 0)))
+      if (2 * range(cell.outer, cell.z0, cell.z1).min < hole.diameter - 2 * equal_radius)
+        return std::nullopt;  // a neck before it
   }
   hole.steps = {{hole.diameter, hole.diameter, hole.depth}};
   return hole;

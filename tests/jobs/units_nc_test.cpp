@@ -233,5 +233,56 @@ TEST(UnitsNcFanuc, DepthOfCutThatCannotWorkIsRefused) {
   EXPECT_EQ(result["error"]["field"], "/program/units/1/tools/0/depth_of_cut");
 }
 
+Json straight(const Json& start, const Json& end) {
+  return {{"pattern", "line"}, {"start", start}, {"end", end}};
+}
+
+Json bar(double radius, double length) {
+  return {
+      {"shape", Json::array({Json::array(
+                    {straight({0, 0}, {radius, 0}), straight({radius, 0}, {radius, length}),
+                     straight({radius, length}, {0, length}), straight({0, length}, {0, 0})})})}};
+}
+
+// A step across half of the end: a cutter as wide as its depth enters only from beyond the arc.
+TEST(UnitsNcFanuc, MillsComeInOverAnOpenArc) {
+  Json product = bar(15, 60);
+  const Json arc = {{"pattern", "arc"},
+                    {"start", {0, -15, 50}},
+                    {"end", {0, 15, 50}},
+                    {"centre", {0, 0, 50}},
+                    {"sense", "ccw"}};
+  const Json outline = Json::array({straight({0, 15, 50}, {0, -15, 50}), arc});
+  product["faces"] = Json::array({{{"form", "step"},
+                                   {"normal", {0, 0, 1}},
+                                   {"point", {5, 0, 50}},
+                                   {"depth", 10},
+                                   {"outline", Json::array({outline})},
+                                   {"z", {50, 50}}}});
+  const Json program = run({{"job", "units"}, {"product", product}});
+  ASSERT_EQ(program.at("status"), "ok") << program;
+  const Json nc = nc_of(program, {{"dialect", "fanuc"}});
+  ASSERT_EQ(nc.at("status"), "ok") << nc;
+  EXPECT_EQ(nc.at("notes"), Json::array());
+  EXPECT_NE(nc.at("programs").dump().find("FACE MILL"), std::string::npos);
+}
+
+// The far step would be sunk through the hole before it.
+TEST(UnitsNcFanuc, NamesAStepBehindANarrowerOne) {
+  Json product = bar(30, 40);
+  const Json steps =
+      Json::array({{{"diameter", 8}, {"length", 10}}, {{"diameter", 16}, {"length", 10}}});
+  product["holes"] = Json::array({{{"start", {15, 0, 0}},
+                                   {"direction", {0, 0, 1}},
+                                   {"diameter", 8},
+                                   {"depth", 20},
+                                   {"bottom", "flat"},
+                                   {"steps", steps}}});
+  const Json nc = nc_of(run({{"job", "units"}, {"product", product}}), {{"dialect", "fanuc"}});
+  ASSERT_EQ(nc.at("status"), "ok") << nc;
+  EXPECT_NE(nc.at("notes").dump().find("16 lies behind 8"), std::string::npos) << nc.at("notes");
+  EXPECT_EQ(nc.at("programs").dump().find("COUNTERBORE"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ridgeline::jobs

@@ -88,6 +88,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Shape{"ring",
                           {arc(30, 0, 38, 8, "ccw", 30, 8), arc(38, 8, 30, 16, "ccw", 30, 8),
                            arc(30, 16, 22, 8, "ccw", 30, 8), arc(22, 8, 30, 0, "ccw", 30, 8)}},
+                    // a drill that its cone fits does not pass the neck
+                    Shape{"drilled_bottom_behind_a_neck",
+                          {line(9, 0, 30, 0), line(30, 0, 30, 80), line(30, 80, 0, 80),
+                           line(0, 80, 0, 57.2103), line(0, 57.2103, 12, 50), line(12, 50, 12, 20),
+                           line(12, 20, 9, 17), line(9, 17, 9, 0)}},
                     Shape{"corners_of_next_to_nothing", many_corners()}),
     [](const auto& shape) { return shape.param.name; });
 
