@@ -265,7 +265,7 @@ TEST_F(LoopbackJobs, AControllerInPlainCAsksWithoutJson) {
     return Process({"/bin/sh", "-c", "exec \"$@\" >" + out, "sh", CONTROLLER, "-d", domain, "-t",
                     "20", "tube-40", "H1", "inner", "entry", tool, "0.5"},
                    folder_ / "controller.log")
-        .wait(30s);
+        .wait(90s);
   };
   EXPECT_EQ(run("12"), 0);
   Json job = by_name();
@@ -293,10 +293,10 @@ TEST_F(Loopback, AClientOnAnotherDdsAsksWithTheSameIdl) {
   const std::string out = (folder_ / "centres").string();
   const std::string domain = std::to_string(domain_);
   const auto run = [&](const std::string& tool, const std::string& points) {
-    return Process({"/bin/sh", "-c", "exec \"$@\" >" + out, "sh", FAST_CLIENT, domain, "20",
+    return Process({"/bin/sh", "-c", "exec \"$@\" >" + out, "sh", FAST_CLIENT, domain, "60",
                     "tube-40", "H1", tool, "0.5", points},
                    folder_ / "fast.log")
-        .wait(30s);
+        .wait(90s);
   };
   EXPECT_EQ(run("12", "72"), 0);
   expect_centres(out, lasting(client.ask(by_name().dump(), "json")).at("centres"));
