@@ -91,7 +91,8 @@ private:
   double S_;
   const AlongOptions& options_;
   Iteration iteration_;
-  Deflections start_;
+  Deflections start_;  // what the last station settled to
+  Deflections ahead_;  // where the next one begins
 };
 
 /// Every station of a path.

@@ -64,6 +64,9 @@ std::vector<Element> elements(const Cutter& cutter);
 /// square mill lags by height.
 double lag(const Cutter& cutter, double sin_q, double cos_q, double z);
 
+/// The same with tan(helix) known.
+double lag(const Cutter& cutter, double tan_beta, double sin_q, double cos_q, double z);
+
 /// Throws Error{BadInput}: field, value, unit, limit.
 void validate(const Cutter& cutter);
 

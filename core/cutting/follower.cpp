@@ -87,7 +87,7 @@ StationError Follower::shifted(const Station& nominal, double shift) {
   Prediction prediction;
   if (options_.method != Method::TimeDomain) {
     const bool is_rigid = options_.method == Method::Rigid;  // its one loop is from no deflection
-    prediction = iteration_.solve(cut, compliance_.axes, is_rigid ? Deflections() : start_);
+    prediction = iteration_.solve(cut, compliance_.axes, is_rigid ? Deflections() : ahead_);
     out.loops = prediction.loops;
     out.converged = prediction.converged;
     out.low_pass_off = options_.iterate.kappa && !prediction.cutoff && prediction.e;
@@ -99,6 +99,8 @@ StationError Follower::shifted(const Station& nominal, double shift) {
     out.border.push_back(out.e ? iteration_.error_towards(axes.transpose() * n) : out.e);
   }
   start_ = out.settles ? prediction.D : Deflections();  // of nothing, where it chatters
+  const bool knows = out.settles && !out.fell_back && !prediction.ahead.empty();
+  ahead_ = knows ? std::move(prediction.ahead) : start_;
   summarise(prediction, axes, out);
   return out;
 }

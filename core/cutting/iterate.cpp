@@ -75,6 +75,11 @@ private:
 constexpr double first_margin = 0.35;
 constexpr double next_margin = 0.6;
 
+// Along a path it changes by about as much as at the stations before: this many times the greatest
+// lately, which is forgotten by so much a station.
+constexpr double usual_changes = 2.5;
+constexpr double fading = 0.8;
+
 // kappa / tc, which must leave the tool its resonances: at 1.4 fn the error moves by 0.8 um, at 2
 // fn by 0.1 um (design: section 5). nullopt: it does not, and the cut goes without.
 std::optional<double> checked_cutoff(const IterateOptions& options, double tc,
@@ -97,16 +102,16 @@ Iteration::Iteration(const Compliance& compliance, double S, IterateOptions opti
     : compliance_(compliance), S_(S), options_(std::move(options)) {}
 
 // Searches the chips for the deflection in use; the memory of the table before serves again. Of
-// equal teeth that begin from a deflection, only the chips round that: `margin` of it is what it
-// may still change.
-void Iteration::make_room(const Cut& cut, const Deflections& D, double margin) {
+// equal teeth that begin from a deflection, only the chips round that, which may still change by
+// `change`, or by `margin` of itself where that is less.
+void Iteration::make_room(const Cut& cut, const Deflections& D, double change, double margin) {
   constexpr double least_reach = 0.02;
   constexpr double least_change = 0.001;
   constexpr double further = 1.5;
   const double used = greatest_deflection(cut, D);
   Around around;
   if (is_centred_) {
-    around = {std::max(least_change, margin * used), D};
+    around = {std::max(least_change, std::min(change, margin * used)), D};
   } else {
     around.reach = std::max(least_reach, further * used);
   }
@@ -129,24 +134,34 @@ Prediction Iteration::solve(const Cut& cut, const Eigen::Matrix2d& axes, const D
   Deflections D1 = resampled(start, samples_);
   is_centred_ = !start.empty() && options_.span == Span::Pitch && is_periodic(cut.cutter) &&
                 cut.samples % teeth(cut.cutter) == 0;
-  make_room(cut, D1, first_margin);
-  return loops(std::move(D1), progress);
+  make_room(cut, D1, usual_changes * change_, first_margin);
+  away_ = 0;
+  Prediction out = loops(std::move(D1), progress);
+  if (is_centred_) change_ = std::isinf(change_) ? away_ : std::max(away_, fading * change_);
+  return out;
 }
 
 void Iteration::adopt(const Cut& cut, Deflections D) {
   cut_scale_ = edge_scale_ = 1;
   is_centred_ = false;
-  make_room(cut, D, first_margin);
+  make_room(cut, D, 0, first_margin);
   span_ = Span::Revolution;
   revolution_ = revolution_force(table_, D, span_);
   D_ = std::move(D);
 }
 
 Prediction Iteration::scaled(double cut_scale, double edge_scale) {
-  scale_forces(table_, cut_scale / cut_scale_, edge_scale / edge_scale_);
+  Deflections D = D_;  // of a whole revolution, if another method found it
+  D.resize(static_cast<std::size_t>(samples_));
+  const double cut_change = cut_scale / cut_scale_;
+  const double edge_change = edge_scale / edge_scale_;
   cut_scale_ = cut_scale;
   edge_scale_ = edge_scale;
-  return loops(D_, {});
+  if (greatest_deflection(table_.cut, D, table_.around.centre) > table_.around.reach)
+    make_room(Cut(table_.cut), D, std::numeric_limits<double>::infinity(), next_margin);
+  else
+    scale_forces(table_, cut_change, edge_change);
+  return loops(std::move(D), {});
 }
 
 std::optional<double> Iteration::error_towards(const Eigen::Vector3d& n) const {
@@ -187,15 +202,18 @@ Prediction Iteration::loops(Deflections D1, const Progress& progress) {
       average(D1, D_, weights.w1());
     }
     const Around& around = table_.around;
-    if (greatest_deflection(table_.cut, D1, around.centre) > around.reach) {
+    const double away = greatest_deflection(table_.cut, D1, around.centre);
+    if (is_centred_) away_ = std::max(away_, away);
+    if (away > around.reach) {
       if (greatest_deflection(table_.cut, D1) > options_.largest) break;
-      make_room(Cut(table_.cut), D1, next_margin);
+      make_room(Cut(table_.cut), D1, away, next_margin);
     }
   }
   out.e = machining_error(table_, revolution_, D_, options_.span, table_.cut.n);
   out.cut_points = revolution_.cut_points;
   out.F = revolution_.F;
   out.D = D_;
+  if (options_.mixing == Mixing::Secants && out.converged) out.ahead = secants_.ahead(D1, D_);
   out.w1 = weights.w1();
   out.reach = table_.around.reach;
   return out;

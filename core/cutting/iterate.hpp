@@ -54,6 +54,7 @@ struct Prediction {
   int cut_points = 0;            ///< of the last force evaluation
   Forces F;                      ///< N samples (a pitch: N / z)
   Deflections D;                 ///< D4, the same
+  Deflections ahead;             ///< where a cut like this one begins best; empty: from D
   double reach = 0;              ///< deflection that the chips were searched for [mm]
 };
 
@@ -89,7 +90,7 @@ public:
 
 private:
   Prediction loops(Deflections D1, const Progress& progress);
-  void make_room(const Cut& cut, const Deflections& D, double margin);
+  void make_room(const Cut& cut, const Deflections& D, double change, double margin);
 
   Compliance compliance_;
   double S_;
@@ -103,6 +104,8 @@ private:
   Secants secants_;
   Eigen::Matrix2d axes_ = Eigen::Matrix2d::Identity();
   double cut_scale_ = 1, edge_scale_ = 1;
+  double away_ = 0;  // how far the loops of this cut went from where they began [mm]
+  double change_ = std::numeric_limits<double>::infinity();  // the same, of the cuts lately
   bool is_centred_ = false;  // the chips are those round a deflection
 };
 

@@ -51,6 +51,18 @@ Eigen::VectorXd Secants::shares(const Eigen::VectorXd& R) const {
   return products_.selfadjointView<Eigen::Lower>().ldlt().solve(with_R);
 }
 
+Deflections Secants::ahead(const Deflections& D1, const Deflections& D4) const {
+  if (differences_.empty() || differences_.front().R.size() != flat(D1).size()) return {};
+  const Eigen::VectorXd R = flat(D4) - flat(D1);
+  const Eigen::VectorXd share = shares(R);
+  Deflections out = D4;
+  Eigen::Map<Eigen::VectorXd> moved(out.front().data(), R.size());
+  for (Eigen::Index i = 0; i < share.size(); ++i)
+    moved -= share[i] * differences_[static_cast<std::size_t>(i)].D_and_R;
+  const bool cancels = !((moved - flat(D4)).norm() <= flat(D4).norm());  // as in next()
+  return cancels ? Deflections() : out;
+}
+
 Deflections Secants::next(const Deflections& D1, const Deflections& D4) {
   const Eigen::VectorXd D = flat(D1);
   const Eigen::VectorXd R = flat(D4) - D;

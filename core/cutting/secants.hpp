@@ -16,6 +16,9 @@ public:
   /// The next D1 after a loop from D1 to D4.
   Deflections next(const Deflections& D1, const Deflections& D4);
 
+  /// Where a cut like the one that converged from D1 to D4 begins best; empty: nothing is known.
+  Deflections ahead(const Deflections& D1, const Deflections& D4) const;
+
   /// The next loop is of another cut: no difference between it and the last one.
   void begin_cut() { has_last_ = false; }
 

@@ -180,6 +180,21 @@ TEST(Along, TheTimeDomainAlongAPathIsTheTimeDomainOfEachStation) {
   EXPECT_NEAR(path[1].spread, same[0].spread, 0.02 * same[0].spread);
 }
 
+// The spread goes on from the deflection of a whole revolution that the time domain found.
+TEST(Along, AStationThatFellBackHasTheSpreadOfOneThatDidNot) {
+  const Example example;
+  AlongOptions options;
+  options.uncertainty = Uncertainty{0.1, 0.2, 0.1};
+  options.iterate.alpha = 1e-8;
+  const auto one = along(example.course, {example.station}, example.compliance, example.S, options);
+  options.iterate.max_loops = 2;
+  const auto fell =
+      along(example.course, {example.station}, example.compliance, example.S, options);
+  EXPECT_FALSE(one[0].fell_back);
+  ASSERT_TRUE(fell[0].fell_back);
+  EXPECT_NEAR(fell[0].spread, one[0].spread, 0.2 * one[0].spread);
+}
+
 // Design page: residual at most 5 % of the original error or 0.5 um.
 TEST(Along, CorrectionTakesTheErrorAway) {
   const Example example;

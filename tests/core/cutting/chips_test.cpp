@@ -127,6 +127,18 @@ TEST(Chips, RoundADeflectionNoneThatCutsIsLost) {
   tip.stock.faces = {HalfSpace{tip.n, 0.23 - tip.cutter.r}};
   tip.cutter.q_end = 2.5;
   cuts.push_back(tip);
+  for (const double phi : {-0.6, 0.9}) {  // down and up, with more feed and lead
+    Cut steep = cuts.front();
+    steep.phi = phi;
+    steep.feed = 0.5;
+    steep.cutter.helix = phi;
+    steep.cutter.lag = phi > 0 ? LagLaw::ConstantLead : LagLaw::Tangent;
+    steep.stock.grooves.clear();
+    const Eigen::Vector3d fd = feed_direction(steep);
+    steep.n = (steep.n - steep.n.dot(fd) * fd).normalized();
+    steep.stock.faces = {HalfSpace{steep.n, 0.23 - steep.cutter.r}};
+    cuts.push_back(steep);
+  }
   for (const Combine combine : {Combine::All, Combine::Any}) {
     Cut wedge = cuts.front();
     wedge.stock.combine = combine;

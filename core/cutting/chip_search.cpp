@@ -1,0 +1,265 @@
+#include "core/cutting/chip_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace ridgeline::cutting {
+namespace {
+
+using std::numbers::pi;
+
+// Of a whole revolution, with as much before and after as a tooth period.
+Deflections round_and_round(const Deflections& centre, int samples) {
+  Deflections out;
+  if (centre.empty()) return out;
+  const std::size_t size = static_cast<std::size_t>(samples) + 2 * centre.size();
+  out.reserve(size);
+  while (out.size() < size) out.insert(out.end(), centre.begin(), centre.end());
+  return out;
+}
+
+double greatest_step(const Deflections& centre) {
+  double greatest = 0;
+  for (std::size_t i = 0; i < centre.size(); ++i)
+    greatest =
+        std::max(greatest, (centre[i + 1 < centre.size() ? i + 1 : 0] - centre[i]).squaredNorm());
+  return std::sqrt(greatest);
+}
+
+// Feed side: ts + w > 0 with w how far the edge may have moved into the material since theta_o is
+// (r + w + f b)^2 > f^2 (b^2 - 1) + r_o^2, which is linear in b.
+double least_b(const Edge& edge, const Before& before, double moved) {
+  const double rim = edge.r + moved;
+  return (before.r * before.r - before.f * before.f - rim * rim) / (2 * before.f * rim);
+}
+
+// theta_o is a tooth period before theta, and as many samples later as
+//   f cos phi cos theta_n / (r sin q) + psi'(q) f (cos q cos phi sin theta_n -
+//   sin q sin phi) / r,
+// the first order of (11) and of the lag at q_o (12), (13) in f / r, give or
+// take `unsure`.
+struct Later {
+  double by_cos = 0, by_sin = 0, always = 0;  // samples
+  double unsure = 0;                          // samples
+};
+
+// nullopt near the tip, where the first order says nothing. What is left out
+// was looked for in random cutters, feeds and elements up to f = r / 3: it is
+// at most 0.91 of `unsure` without its margin.
+std::optional<Later> later(const Scene& scene, const Edge& edge, const Before& before) {
+  constexpr double margin = 1.25;
+  constexpr double tip = 0.5;  // of f over the radius of the element's circle
+  const Cutter& cutter = scene.cut.cutter;
+  const double f = before.f;
+  const double r = edge.r;
+  const double runout = std::abs(r - before.r);
+  const double sin_q = edge.element->sin_q;
+  const double cos_q = edge.element->cos_q;
+  const double circle = (r - (f + f * f / r + runout)) * sin_q;
+  if (!(f < tip * circle)) return std::nullopt;
+  const double per_radian = scene.cut.samples / (2 * pi);
+  const bool is_square = cutter.kind == CutterKind::Square;
+  const double slope =
+      cutter.lag == LagLaw::ConstantLead ? sin_q * scene.tan_helix : scene.tan_helix / (1 + cos_q);
+  const double lean = is_square ? 0 : slope * f / r;
+  const double lowest = 1 + std::cos(std::min(std::acos(cos_q) + 2 * f / r, pi - 0.01));
+  const double bend = is_square ? 0 : std::abs(scene.tan_helix) / (lowest * lowest);
+  const double turn = f / circle;
+  return Later{per_radian * f * scene.cos_phi / (r * sin_q),
+               per_radian * lean * cos_q * scene.cos_phi, per_radian * lean * sin_q * scene.fd.z(),
+               per_radian * margin * turn * (turn + runout / r) * (1 + bend)};
+}
+
+// How far the centre of the deflections has moved into the material since theta_o, at most.
+class Moved {
+public:
+  Moved(const Scene& scene, const Edge& edge, const Before& before)
+      : scene_(scene), sin_q_(edge.element->sin_q) {
+    if (scene.centre.empty()) return;
+    later_ = later(scene, edge, before);
+    if (!later_) return;
+    slack_ = later_->unsure * scene.step * sin_q_;
+    far_ = std::hypot(later_->by_cos, later_->by_sin) + std::abs(later_->always) + later_->unsure;
+    if (!(far_ + 2 < static_cast<double>(scene.around.centre.size()))) later_.reset();
+  }
+
+  /// At any sample, at most: of no edge more than `largest` there and back.
+  double greatest() const {
+    if (scene_.centre.empty()) return 0;
+    const double there_and_back = 2 * scene_.largest;
+    return sin_q_ * (later_ ? std::min(far_ * scene_.step, there_and_back) : there_and_back);
+  }
+
+  double at(std::int32_t sample, const Aim& aim) const {
+    if (!later_) return 2 * scene_.largest * sin_q_;
+    const auto period = static_cast<double>(scene_.around.centre.size());
+    const double place =
+        sample + period + later_->by_cos * aim.c + later_->by_sin * aim.s + later_->always;  // > 0
+    const auto below = static_cast<std::size_t>(place);
+    const double frac = place - static_cast<double>(below);
+    const Eigen::Vector2d* centre = scene_.centre.data();
+    const Eigen::Vector2d was = centre[below] + frac * (centre[below + 1] - centre[below]);
+    const Eigen::Vector2d is = scene_.at(sample);
+    return aim.N.x() * (is.x() - was.x()) + aim.N.y() * (is.y() - was.y()) + slack_;
+  }
+
+private:
+  const Scene& scene_;
+  double sin_q_;
+  std::optional<Later> later_;
+  double slack_ = 0;  // [mm]
+  double far_ = 0;    // theta_o from a tooth period before theta, at most [samples]
+};
+
+bool is_in_stock(const Scene& scene, const Eigen::Vector3d& P) {
+  const double reach = scene.around.reach;
+  const Stock& stock = scene.cut.stock;
+  const std::size_t faces = stock.faces.size();
+  for (std::size_t i = faces; i < scene.boundaries.size(); ++i) {
+    if (!is_near(scene.boundaries[i], P, reach)) return false;
+  }
+  const bool all = stock.combine == Combine::All;
+  bool inside = all || faces == 0;
+  for (std::size_t i = 0; i < faces; ++i) {
+    const bool near = is_near(scene.boundaries[i], P, reach);
+    if (all && !near) return false;
+    inside = inside || near;
+  }
+  if (!inside || !stock.map) return inside;
+  const Eigen::Vector3d p = stock.map_origin + stock.map_axes * P;
+  const double sunk = reach * stock.map_axes.row(2).head<2>().norm();  // of a tilted tool
+  return p.z() - sunk <= greatest_height(*stock.map, p.x(), p.y(), reach);
+}
+
+// Samples from first to last, not wrapped.
+struct Window {
+  int first = 0;
+  int last = -1;
+};
+
+// Where an element can meet the narrowest plane:
+// -sin q r (n_x cos - n_y sin)(theta_n) <= h + reach |n_xy| - z n_z.
+Window window(const Scene& scene, const Edge& edge) {
+  const int N = scene.cut.samples;
+  const Stock& stock = scene.cut.stock;
+  if (stock.combine == Combine::Any && stock.faces.size() > 1) return {0, N - 1};
+  const double z = edge.base - edge.r * edge.element->cos_q;
+  double middle = 0;
+  double half = pi;
+  for (const Face& face : stock.faces) {
+    const auto* plane = std::get_if<HalfSpace>(&face);
+    if (plane == nullptr) continue;
+    const double level = std::hypot(plane->n.x(), plane->n.y());
+    const double room = plane->h + scene.largest * level - z * plane->n.z();
+    const double swing = edge.r * edge.element->sin_q * level;
+    if (room >= swing) continue;   // inside all round
+    if (room < -swing) return {};  // never inside
+    const double half_here = std::acos(-room / swing);
+    if (half_here >= half) continue;
+    half = half_here;
+    middle = std::atan2(-plane->n.y(), plane->n.x());
+  }
+  if (half >= pi) return {0, N - 1};
+  const double per_sample = 2 * pi / N;
+  const double centre = middle - edge.ahead + edge.element->psi;
+  const int first = static_cast<int>(std::floor((centre - half) / per_sample));
+  const int last = static_cast<int>(std::ceil((centre + half) / per_sample));
+  return {first, std::min(last, first + N - 1)};
+}
+
+void search(const Scene& scene, const Edge& edge, const Before& before, std::int32_t element,
+            std::vector<Found>& found) {
+  const auto [first, last] = window(scene, edge);
+  if (last < first) return;
+  const int N = scene.cut.samples;
+  const bool is_centred = !scene.centre.empty();
+  const Moved moved(scene, edge, before);
+  const double spread = 2 * scene.around.reach * edge.element->sin_q;
+  const double least = least_b(edge, before, spread + moved.greatest());
+  const double level = before.r * before.r - before.f * before.f;
+  const auto cuts_deeper = [&](double b, std::int32_t sample, const Aim& at) {  // as least_b()
+    const double rim = edge.r + spread + moved.at(sample, at);
+    return rim * (2 * before.f * b + rim) > level;
+  };
+  std::int32_t sample = ((first % N) + N) % N;
+  for (int i = first; i <= last; ++i) {
+    const Aim at = aim(scene, edge, sample);
+    const double b = at.N.dot(scene.fd);
+    if (b > least) {  // may cut deeper than the tooth before
+      Eigen::Vector3d P = point(edge, at);
+      if (is_centred) P.head<2>() += scene.at(sample);
+      if (is_in_stock(scene, P) && (!is_centred || cuts_deeper(b, sample, at)))
+        found.push_back({sample, element});
+    }
+    sample = sample + 1 < N ? sample + 1 : 0;
+  }
+}
+
+// By sample, elements upwards within one.
+std::vector<std::int32_t> sort_by_sample(std::vector<Found>& found, int samples) {
+  std::vector<std::int32_t> first(static_cast<std::size_t>(samples) + 1, 0);
+  for (const Found& one : found) ++first[static_cast<std::size_t>(one.sample) + 1];
+  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+  std::vector<std::int32_t> next(first.begin(), first.end() - 1);
+  std::vector<Found> sorted(found.size());
+  for (const Found& one : found) {
+    sorted[static_cast<std::size_t>(next[static_cast<std::size_t>(one.sample)]++)] = one;
+  }
+  found = std::move(sorted);
+  return first;
+}
+
+}  // namespace
+
+Scene scene(const Cut& cut, const Around& around) {
+  Scene scene{.cut = cut,
+              .around = around,
+              .largest = around.reach,
+              .step = greatest_step(around.centre),
+              .centre = round_and_round(around.centre, cut.samples),
+              .fd = feed_direction(cut),
+              .cos_phi = std::cos(cut.phi),
+              .tan_helix = std::tan(cut.cutter.helix),
+              .elements = elements(cut.cutter),
+              .sin_theta = {},
+              .cos_theta = {},
+              .boundaries = boundaries(cut.stock)};
+  double furthest = 0;
+  for (const Eigen::Vector2d& U : around.centre) furthest = std::max(furthest, U.squaredNorm());
+  scene.largest += std::sqrt(furthest);
+  for (int i = 0; i < cut.samples; ++i) {
+    const double theta = 2 * pi * i / cut.samples;
+    scene.sin_theta.push_back(std::sin(theta));
+    scene.cos_theta.push_back(std::cos(theta));
+  }
+  return scene;
+}
+
+Edge edge_of(const Cut& cut, const Element& element, int tooth) {
+  const double ahead = tooth_angle(cut.cutter, tooth);
+  return {.element = &element,
+          .r = tooth_radius(cut.cutter, tooth),
+          .ahead = ahead,
+          .sin_k = std::sin(ahead - element.psi),
+          .cos_k = std::cos(ahead - element.psi),
+          .base = cut.cutter.kind == CutterKind::Square ? element.z : 0};
+}
+
+Before before(const Cut& cut, int tooth, int m) {
+  const double ahead = tooth_angle(cut.cutter, tooth + m) - tooth_angle(cut.cutter, tooth);
+  return {.ahead = ahead,
+          .f = cut.feed * teeth(cut.cutter) * ahead / (2 * pi),
+          .r = tooth_radius(cut.cutter, tooth + m)};
+}
+
+Candidates candidates(const Scene& scene, const std::vector<Edge>& edges, const Before& before) {
+  Candidates out;
+  for (std::size_t j = 0; j < edges.size(); ++j)
+    search(scene, edges[j], before, static_cast<std::int32_t>(j), out.found);
+  out.first = sort_by_sample(out.found, scene.cut.samples);
+  return out;
+}
+
+}  // namespace ridgeline::cutting

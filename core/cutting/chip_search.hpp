@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/cutting/boundary.hpp"
+#include "core/cutting/chips.hpp"
+
+/// Search of a chip table: which elements at which samples may cut.
+namespace ridgeline::cutting {
+
+/// What the whole table shares.
+struct Scene {
+  const Cut& cut;
+  const Around& around;
+  double largest = 0;  ///< deflection that may be [mm]
+  double step = 0;     ///< of the centre, from sample to sample, at most [mm]
+  Deflections centre;  ///< a tooth period before the revolution to one after;
+                       ///< empty: none
+  Eigen::Vector3d fd;
+  double cos_phi = 1;
+  double tan_helix = 0;
+  std::vector<Element> elements;
+  std::vector<double> sin_theta, cos_theta;  ///< of each sample
+  std::vector<Boundary> boundaries;
+
+  /// The centre at a sample of the revolution; only if there is one.
+  const Eigen::Vector2d& at(std::int32_t sample) const {
+    return centre[static_cast<std::size_t>(sample) + around.centre.size()];
+  }
+};
+
+/// One edge element of one tooth.
+struct Edge {
+  const Element* element = nullptr;
+  double r = 0;
+  double ahead = 0;             ///< angle of the tooth
+  double sin_k = 0, cos_k = 0;  ///< of theta_n - theta
+  double base = 0;
+};
+
+/// An element at a sample that may cut.
+struct Found {
+  std::int32_t sample = 0;
+  std::int32_t element = 0;
+};
+
+/// Direction of an element at a sample.
+struct Aim {
+  double s = 0;  ///< sin theta_n
+  double c = 0;  ///< cos theta_n
+  Eigen::Vector3d N;
+};
+
+/// The tooth m before this one: how far ahead it is, what it left behind.
+struct Before {
+  double ahead = 0;  ///< angle from this tooth
+  double f = 0;      ///< feed since it was here [mm]
+  double r = 0;
+};
+
+Scene scene(const Cut& cut, const Around& around);
+Edge edge_of(const Cut& cut, const Element& element, int tooth);
+Before before(const Cut& cut, int tooth, int m);
+
+inline Aim aim(const Scene& scene, const Edge& edge, std::int32_t sample) {
+  const double s = scene.sin_theta[static_cast<std::size_t>(sample)];
+  const double c = scene.cos_theta[static_cast<std::size_t>(sample)];
+  Aim aim;
+  aim.s = s * edge.cos_k + c * edge.sin_k;
+  aim.c = c * edge.cos_k - s * edge.sin_k;
+  const double sin_q = edge.element->sin_q;
+  aim.N = {-sin_q * aim.c, sin_q * aim.s, -edge.element->cos_q};
+  return aim;
+}
+
+inline Eigen::Vector3d point(const Edge& edge, const Aim& aim) {
+  return edge.r * aim.N + Eigen::Vector3d(0, 0, edge.base);
+}
+
+/// What may cut of the edges of one tooth, by sample, elements upwards within
+/// one.
+struct Candidates {
+  std::vector<std::int32_t> first;  ///< where each sample begins, and the end of all
+  std::vector<Found> found;
+};
+Candidates candidates(const Scene& scene, const std::vector<Edge>& edges, const Before& before);
+
+}  // namespace ridgeline::cutting
