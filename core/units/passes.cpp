@@ -13,7 +13,6 @@ namespace ridgeline::units {
 namespace {
 
 using Moves = std::vector<TurningMove>;
-
 constexpr double lift = 0.5;          // [mm] that a tool leaves the wall before it goes back
 constexpr double least_depth = 0.01;  // [mm]
 constexpr std::size_t most_passes = 5000;
@@ -252,21 +251,34 @@ void turn_bar(const Program& program, const Unit& unit, TurningPaths& paths) {
     step.moves = bar_moves(unit, bar, work_left, row, allowance, program.stock, is_rough);
     paths.steps.push_back(std::move(step));
   }
-  const Box b = box(unit.region);
   const double fall = steepest_fall(bar);
-  if (fall > 3 * 3.14159265358979 / 180 && b.z1 > b.z0)
+  if (fall > 3 * 3.14159265358979 / 180)
     paths.notes.push_back("unit " + std::to_string(unit.number) +
                           ": the product falls behind the nose at up to " +
                           std::to_string(static_cast<int>(std::lround(fall * 180 / 3.14159265))) +
                           " deg: the trailing edge of the tool must clear that");
 }
 
-void turn_face(const Unit& unit, TurningPaths& paths) {
+/// How deep a face may be turned: what an edit wants of the product is not cut (design 1.8-o).
+double face_floor(const Region& shadow, const Box& b, bool is_front) {
+  const double far = std::max(b.r1, box(shadow).r1) + 1;
+  const Region met = intersection_of(shadow, rectangle(b.r0, far, b.z0, b.z1));
+  if (is_empty(met)) return is_front ? b.z1 : b.z0;
+  return is_front ? box(met).z0 : box(met).z1;
+}
+
+void turn_face(const Program& program, const Unit& unit, TurningPaths& paths) {
   const bool is_front = unit.kind == UnitKind::FaceFront;
   const double sign = is_front ? 1 : -1;  // the way in depth
   const Box b = box(unit.region);
   const double top = is_front ? b.z0 : b.z1;
-  const double floor = is_front ? b.z1 : b.z0;
+  const double floor = face_floor(program.product.shadow, b, is_front);
+  const bool is_held = is_front != (unit.process == 1);
+  if (is_held || sign * (floor - top) < merge_tolerance) {
+    const char* why = is_held ? " lies in the chuck of its process" : " lies behind the product";
+    paths.notes.push_back("unit " + std::to_string(unit.number) + why + ": no path");
+    return;
+  }
   for (std::size_t i = 0; i < unit.tools.size(); ++i) {
     check_row(unit, i);
     const ToolRow& row = unit.tools[i];
@@ -373,7 +385,7 @@ TurningPaths turning_paths(const Program& program, const Unit& unit) {
     case UnitKind::BarOuter:
     case UnitKind::BarInner: turn_bar(program, unit, paths); break;
     case UnitKind::FaceFront:
-    case UnitKind::FaceBack: turn_face(unit, paths); break;
+    case UnitKind::FaceBack: turn_face(program, unit, paths); break;
     case UnitKind::Hole:
       if (is_turned(unit)) drill_on_axis(unit, paths);
       break;

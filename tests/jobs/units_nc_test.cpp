@@ -284,5 +284,26 @@ TEST(UnitsNcFanuc, NamesAStepBehindANarrowerOne) {
   EXPECT_EQ(nc.at("programs").dump().find("COUNTERBORE"), std::string::npos);
 }
 
+// What an edit wants of the product is not cut, and does not keep the rest from being written.
+TEST(UnitsNcFanuc, FacesEndAtTheProduct) {
+  Json program = plan_of("own_flanged_shaft.step");
+  const auto edited = [&](const Json& set) {
+    return run({{"job", "units"},
+                {"operation", "edit"},
+                {"program", program},
+                {"edits", Json::array({{{"unit", 1}, {"set", set}}})}});
+  };
+  program = edited({{"shape/0/end", {10, 3}}});
+  ASSERT_EQ(program.at("status"), "ok") << program;
+  const Json nc = nc_of(program, {{"dialect", "fanuc"}});
+  ASSERT_EQ(nc.at("status"), "ok") << nc.at("error");
+  EXPECT_LT(nc.at("units").at(0).at("gouge"), 1e-2);
+  EXPECT_GT(nc.at("units").at(0).at("left"), 100);
+  program = edited({{"process", 2}});
+  ASSERT_EQ(program.at("status"), "ok") << program;
+  EXPECT_NE(nc_of(program, {{"dialect", "fanuc"}}).at("notes").dump().find("lies in the chuck"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace ridgeline::jobs
