@@ -102,6 +102,12 @@ double narrowness(const MilledFace& face) {
   for (const FaceEdge& edge : face.outline.front()) {
     points.push_back(edge.start);
     if (!edge.is_arc) continue;
+    if ((edge.end - edge.start).norm() < 1e-9) {  // a whole circle
+      const Eigen::Vector3d u = edge.start - edge.centre;
+      const Eigen::Vector3d v = face.normal.cross(u);
+      points.insert(points.end(), {edge.centre + v, edge.centre - u, edge.centre - v});
+      continue;
+    }
     const Eigen::Vector3d out = (edge.start + edge.end) / 2 - edge.centre;
     if (out.norm() > 1e-9)
       points.push_back(edge.centre + (edge.start - edge.centre).norm() * out.normalized());

@@ -267,6 +267,24 @@ TEST(UnitsNcFanuc, MillsComeInOverAnOpenArc) {
   EXPECT_NE(nc.at("programs").dump().find("FACE MILL"), std::string::npos);
 }
 
+TEST(UnitsNcFanuc, TheCutterOfARoundPocketEntersIt) {
+  Json product = bar(25, 60);
+  const Json circle = {{"pattern", "arc"},
+                       {"start", {20, -5, 30}},
+                       {"end", {20, -5, 30}},
+                       {"centre", {20, 0, 30}},
+                       {"sense", "ccw"}};
+  product["faces"] = Json::array({{{"form", "pocket"},
+                                   {"normal", {1, 0, 0}},
+                                   {"point", {20, 0, 30}},
+                                   {"depth", 5},
+                                   {"outline", Json::array({Json::array({circle})})},
+                                   {"z", {25, 35}}}});
+  const Json nc = nc_of(run({{"job", "units"}, {"product", product}}), {{"dialect", "fanuc"}});
+  ASSERT_EQ(nc.at("status"), "ok") << nc;
+  EXPECT_EQ(nc.at("notes"), Json::array());
+}
+
 // The far step would be sunk through the hole before it.
 TEST(UnitsNcFanuc, NamesAStepBehindANarrowerOne) {
   Json product = bar(30, 40);
