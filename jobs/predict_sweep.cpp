@@ -22,7 +22,15 @@ struct AtSpeed {
   std::vector<std::string> warnings;
 };
 
-AtSpeed at_speed(PredictJob job, double rpm, const Progress& progress) {
+// A vibration that outgrows the tool has no error; the other speeds have theirs.
+AtSpeed outgrown(const PredictJob& job) {
+  AtSpeed out;
+  out.method = cutting::Method::TimeDomain;
+  if (job.test != StabilityTest::None) out.stability = name(cutting::Stability::Unstable);
+  return out;
+}
+
+AtSpeed at_speed(PredictJob job, double rpm, const Progress& progress) try {
   job.engagement.S = rpm / 60;
   AtSpeed out;
   const cutting::Predicted predicted = cutting::predict(job.engagement, job.method, {}, progress);
@@ -32,6 +40,9 @@ AtSpeed at_speed(PredictJob job, double rpm, const Progress& progress) {
   out.method = predicted.method;
   out.stability = stability_document(job, out.warnings, progress);
   return out;
+} catch (const Error& error) {
+  if (error.code() != ErrorCode::NotConverged) throw;
+  return outgrown(job);
 }
 
 std::string csv_of(const std::vector<double>& speeds, const std::vector<AtSpeed>& rows) {

@@ -106,6 +106,25 @@ TEST(PredictJob, FallsBackToTheTimeDomainAndSaysSo) {
   EXPECT_NEAR(result["e_mm"].get<double>(), 0.012901207, 1e-8);
 }
 
+// At one speed the vibration outgrows the tool, which alone is refused; the other has its answer.
+TEST(PredictJob, SweepTellsTheSpeedThatOutgrowsTheTool) {
+  Json job = Json::parse(R"({"job": "predict", "speeds_rpm": [6000, 100000], "case": {
+    "tool": {"kind": "square", "r": 5, "z": 4, "helix_deg": 30, "nq": 32,
+             "pitch_deg": [85, 95, 88, 92]}, "N": 256, "feed_per_tooth": 0.05,
+    "coef": {"Ktc": 796.1, "Krc": 168.8, "Kac": 222, "Kte": 27.7, "Kre": 30.8, "Kae": 1.4},
+    "engagement": {"normal": [-1, 0, 0], "a": 0.5, "ap": 4},
+    "modes_x": [[900, 0.02, 4000]], "modes_y": [[950, 0.02, 5000]]}})");
+  const Json result = run(job);
+  ASSERT_EQ(result["status"], "ok") << result.dump();
+  EXPECT_TRUE(result["e_mm"][0].is_null());
+  EXPECT_TRUE(result["e_mm"][1].is_number());
+  EXPECT_EQ(result["stability"], Json({"unstable", "stable"}));
+  EXPECT_EQ(result["converged"], Json({false, true}));
+  job.erase("speeds_rpm");
+  job["speed_rpm"] = 6000;
+  EXPECT_EQ(run(job)["error"]["code"], "not_converged");
+}
+
 TEST(PredictJob, SweepsTheSpeedAndFlagsChatter) {
   Json job = oracle_job();
   job.erase("speed_rpm");
