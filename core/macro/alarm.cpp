@@ -24,6 +24,7 @@ std::string_view text(AlarmNumber number) noexcept {
     case AlarmNumber::NoProgramNumber: return "no program number after P";
     case AlarmNumber::TooManyLevels: return "too many levels of subprograms";
     case AlarmNumber::NumberNotFound: return "program or sequence number not found";
+    case AlarmNumber::NotAtReference: return "axis not at the reference position";
     case AlarmNumber::IntegerOverflow: return "overflow of an integer";
     case AlarmNumber::FloatOverflow: return "overflow of a number";
     case AlarmNumber::ZeroDivide: return "divided by zero";

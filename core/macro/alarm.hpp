@@ -30,6 +30,7 @@ enum class AlarmNumber : int {
   NoProgramNumber = 76,
   TooManyLevels = 77,
   NumberNotFound = 78,
+  NotAtReference = 92,
   IntegerOverflow = 110,
   FloatOverflow = 111,
   ZeroDivide = 112,

@@ -22,25 +22,12 @@ void NcExecutor::canned_cycle() {
   }
   read_cycle_words();
   const NcWords& words = *words_;
-  const bool is_absolute = state_.modal.distance == 900;
   const char repeat = words.has('K') ? 'K' : 'L';
   const bool has_repeat = words.has(repeat);
   const std::int64_t times =
       has_repeat ? rounded_integer(words[repeat], words.column_of(repeat)) : 1;
-  const double steps[2] = {words.has('X') ? coordinate('X') : 0.0,
-                           words.has('Y') ? coordinate('Y') : 0.0};
   for (std::int64_t i = 0; i < times; ++i) {
-    Axes hole = state_.position;
-    if (is_absolute) {
-      if (i == 0) {
-        const Axes to = target();
-        hole[0] = to[0];
-        hole[1] = to[1];
-      }
-    } else {
-      hole[0] += steps[0];
-      hole[1] += steps[1];
-    }
+    Axes hole = target();  // in G91 one step farther each time
     hole[2] = state_.position[2];
     drill(hole, cycle_.initial);
   }

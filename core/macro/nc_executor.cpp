@@ -32,6 +32,7 @@ bool takes_axis_words(int code) {
     case 511:
     case 520:
     case 530:
+    case 600:
     case 680:
     case 920:
     case 921: return true;
@@ -41,7 +42,7 @@ bool takes_axis_words(int code) {
 
 // Look-ahead, smoothing and stroke checks: nothing to simulate.
 bool is_without_effect(int code) {
-  return code == 50 || code == 80 || code == 90 || code == 250 || code == 260 || code == 600;
+  return code == 50 || code == 80 || code == 90 || code == 250 || code == 260;
 }
 
 bool is_after_move(int m) {
@@ -77,8 +78,9 @@ BlockEffect NcExecutor::execute(const NcWords& words, int program, int line) {
     if (length_code != 0 || (is_length && state_.modal.length != 490)) {
       apply_length(state_.modal.length);
     }
-    if (has_axis_word()) {
-      if (state_.modal.canned != 800) {
+    const bool is_cycle = state_.modal.canned != 800;
+    if (has_axis_word() || (is_cycle && words.has('R'))) {
+      if (is_cycle) {
         canned_cycle();
       } else {
         const Axes to = target();
@@ -132,7 +134,7 @@ bool NcExecutor::apply_modal(int code) {
     case 330: set_motion(code); return true;
     case 150:
     case 160:
-      if (code == 160 && modal.polar == 150) state_.polar.setZero();
+      if (code == 160 && modal.polar == 150) state_.polar = state_.pole = Eigen::Vector2d::Zero();
       modal.polar = code;
       return true;
     case 170:
@@ -332,7 +334,7 @@ bool NcExecutor::run_special() {
     case 51:  // the axes of a smooth path, not where to go
     case 220: return true;
     case 100: set_data(); return true;
-    case 270: straight(MoveKind::Rapid, target()); return true;
+    case 270: reference_check(); return true;
     case 280:
     case 300: reference_return(one_shot_); return true;
     case 290: from_reference(); return true;
@@ -346,12 +348,10 @@ bool NcExecutor::run_special() {
     case 511: mirror(one_shot_ == 511); return true;
     case 520: local_system(); return true;
     case 530: machine_move(); return true;
+    case 600: straight(MoveKind::Rapid, target()); return true;
     case 680: rotation_on(); return true;
     case 920: preset_system(); return true;
-    case 921:
-      state_.preset = state_.local = Axes{};
-      follow_machine(state_);
-      return true;
+    case 921: preset_system_off(); return true;
     default: break;
   }
   follow_machine(state_);

@@ -60,6 +60,7 @@ private:
   void set_offset_data(int L);
   void local_system();
   void preset_system();
+  void preset_system_off();
   void rotation_on();
   void rotation_off();
   void scaling_on();
@@ -82,6 +83,7 @@ private:
   double feed_of(double length) const;
   double side_offset() const;
   void machine_move();
+  void reference_check();
   void reference_return(int code);
   void from_reference();
   void skip_move();

@@ -69,7 +69,8 @@ void NcExecutor::drop_drift() {
   }
 }
 
-// G16: the plane's first axis is the radius, the second the angle.
+// G16: the plane's first axis is the radius, the second the angle. A radius in G91 begins where the
+// tool is, one in G90 at zero, and keeps that for the angles that follow.
 void NcExecutor::polar_target(Axes& to) {
   const path::PlaneAxes axes = path::axes_of(plane_of(state_.modal));
   const char radius_name = axis_names[axes.first];
@@ -78,14 +79,18 @@ void NcExecutor::polar_target(Axes& to) {
   const bool is_absolute = state_.modal.distance == 900;
   const auto first = static_cast<std::size_t>(axes.first);
   const auto second = static_cast<std::size_t>(axes.second);
-  if (words_->has(radius_name)) state_.polar[0] = length_word(radius_name);
+  if (words_->has(radius_name)) {
+    state_.polar[0] = length_word(radius_name);
+    state_.pole =
+        is_absolute ? Vector2d::Zero() : Vector2d(state_.position[first], state_.position[second]);
+  }
   if (words_->has(angle_name)) {
     const double angle = angle_word(angle_name);
     state_.polar[1] = is_absolute ? angle : state_.polar[1] + angle;
   }
   const double angle = radians(state_.polar[1]);
-  to[first] = (is_absolute ? 0 : state_.position[first]) + state_.polar[0] * std::cos(angle);
-  to[second] = (is_absolute ? 0 : state_.position[second]) + state_.polar[0] * std::sin(angle);
+  to[first] = state_.pole[0] + state_.polar[0] * std::cos(angle);
+  to[second] = state_.pole[1] + state_.polar[0] * std::sin(angle);
 }
 
 Segment NcExecutor::segment(MoveKind kind) {
@@ -250,6 +255,20 @@ void NcExecutor::machine_move() {
   moved_ = true;
 }
 
+// G27: goes to the point as G00 and looks whether it is the reference position.
+void NcExecutor::reference_check() {
+  straight(MoveKind::Rapid, target());
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    if (!words_->has(axis_names[i])) continue;
+    const double reference = i < 3 ? state_.profile.references[0][static_cast<int>(i)] : 0.0;
+    if (std::abs(state_.machine[i] - reference) < state_.profile.increment / 2) continue;
+    raise(AlarmNumber::NotAtReference,
+          axis_names[i] + number_text(state_.machine[i]) + " mm instead of " +
+              number_text(reference) + " mm in machine coordinates",
+          words_->column_of(axis_names[i]));
+  }
+}
+
 // G28, G30 P2..P4: through the given point to the reference position, the named axes only.
 void NcExecutor::reference_return(int code) {
   if (!has_axis_word()) return;
@@ -277,12 +296,15 @@ void NcExecutor::reference_return(int code) {
   moved_ = true;
 }
 
-// G29: from the reference position through the point of the last G28 to the target.
+// G29: from the reference position through the point of the last G28 to the target; in G91 the way
+// begins at that point.
 void NcExecutor::from_reference() {
-  const Axes to = target();
+  Axes to = target();
   Axes through = state_.position;
   for (std::size_t i = 0; i < axis_count; ++i) {
-    if (words_->has(axis_names[i])) through[i] = intermediate_[i];
+    if (!words_->has(axis_names[i])) continue;
+    through[i] = intermediate_[i];
+    if (state_.modal.distance == 910) to[i] += through[i] - state_.position[i];
   }
   move_to(segment(MoveKind::Rapid), through);
   move_to(segment(MoveKind::Rapid), to);

@@ -85,15 +85,28 @@ void NcExecutor::local_system() {
   follow_machine(state_);
 }
 
+// G92: here the tool is at the given coordinates, in every work system; G52 of these axes ends.
 void NcExecutor::preset_system() {
   for (std::size_t i = 0; i < axis_count; ++i) {
     if (!words_->has(axis_names[i])) continue;
-    state_.preset[i] += state_.position[i] - coordinate(axis_names[i]);
+    state_.preset[i] += state_.position[i] + state_.local[i] - coordinate(axis_names[i]);
+    state_.local[i] = 0;
   }
   follow_machine(state_);
 }
 
-// Incremental moves after G68 turn about the position at G68 until the first absolute move.
+// G92.1: the named axes lose G92 and G52; without a name all of them.
+void NcExecutor::preset_system_off() {
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    if (has_axis_word() && !words_->has(axis_names[i])) continue;
+    state_.preset[i] = state_.local[i] = 0;
+  }
+  follow_machine(state_);
+}
+
+// G68. Under mirror image and scaling the centre is an image too, and one mirrored axis of the
+// plane turns the other way. Incremental moves after G68 turn about the position at G68 until the
+// first absolute move.
 void NcExecutor::rotation_on() {
   if (compensation_.is_active() && state_.rotation.is_active) {
     raise(AlarmNumber::PlaneMismatch, "G68 in cutter compensation");
@@ -110,7 +123,9 @@ void NcExecutor::rotation_on() {
     const double value = coordinate(name);
     rotation.centre[axis] = state_.modal.distance == 910 ? rotation.centre[axis] + value : value;
   }
-  const double angle = words_->has('R') ? angle_word('R') : 0;
+  rotation.centre = imaged(state_, rotation.centre);
+  const double side = reverses_arcs(state_, rotation.plane) ? -1 : 1;
+  const double angle = words_->has('R') ? side * angle_word('R') : 0;
   rotation.cosine = std::cos(radians(angle));
   rotation.sine = std::sin(radians(angle));
   state_.rotation = rotation;

@@ -154,17 +154,19 @@ bool Runner::holds(const Frame& frame, const Block& block) const {
   return evaluate(*frame.program, block.code, variables_).number != 0;
 }
 
+// Of #[expression].
+int Runner::computed_number(const Program& program, std::int32_t code, int column) const {
+  const std::int64_t number = rounded_integer(evaluate(program, code, variables_).number, column);
+  if (number < 0 || number > 999999999) {
+    raise(AlarmNumber::VariableNumber, numbered("#", number), column);
+  }
+  return static_cast<int>(number);
+}
+
 void Runner::assign(const Frame& frame, const Block& block) {
   const Program& program = *frame.program;
   int number = block.variable;
-  if (number < 0) {
-    const Value index = evaluate(program, block.goto_code, variables_);
-    const std::int64_t rounded = rounded_integer(index.number, block.column);
-    if (rounded < 0 || rounded > 999999999) {
-      raise(AlarmNumber::VariableNumber, numbered("#", rounded), block.column);
-    }
-    number = static_cast<int>(rounded);
-  }
+  if (number < 0) number = computed_number(program, block.goto_code, block.column);
   assigned_ = number;
   const Value value = evaluate(program, block.code, variables_);
   if (number >= 1 && number <= 33) {
@@ -232,10 +234,7 @@ void Runner::print(const Program& program, const Block& block) {
       continue;
     }
     int number = static_cast<int>(word.number);
-    if (number < 0) {
-      number = static_cast<int>(
-          rounded_integer(evaluate(program, word.code, variables_).number, word.column));
-    }
+    if (number < 0) number = computed_number(program, word.code, word.column);
     line += printed(variables_.read(number, word.column).number, word.flags / 10, word.flags % 10);
   }
   take_room(line.size() + sizeof(line));

@@ -59,6 +59,7 @@ private:
   void loop();
   void step(Frame& frame, const Block& block);
   void check_limits();
+  int computed_number(const Program& program, std::int32_t code, int column) const;
   void assign(const Frame& frame, const Block& block);
   void take_room(std::size_t bytes);
   void assign_system(const Program& program, const Block& block, int number, Value value);

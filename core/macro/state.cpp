@@ -48,8 +48,12 @@ Axes shift_of(const State& state) {
   return shift;
 }
 
+Vector3d imaged(const State& state, const Vector3d& programmed) {
+  return scaled(state.scaling, scaled(state.mirror, programmed));
+}
+
 Vector3d transformed(const State& state, const Vector3d& programmed) {
-  const Vector3d p = scaled(state.scaling, scaled(state.mirror, programmed));
+  const Vector3d p = imaged(state, programmed);
   if (!state.rotation.is_active) return p;
   return turned(state.rotation, p, 1) + state.rotation.drift;
 }

@@ -100,6 +100,7 @@ struct State {
   Rotation rotation;
   Scaling scaling, mirror;
   Eigen::Vector2d polar = Eigen::Vector2d::Zero();  ///< G16: radius and angle [deg] in force
+  Eigen::Vector2d pole = Eigen::Vector2d::Zero();   ///< G16: where the radius begins
   int main_program = 0;                             ///< #4000
   int spindle_tool = -1;                            ///< after M06; -1: no tool change yet
   std::map<int, double> plain;  ///< #1100.., #3003, #3004 and others that only store
@@ -117,6 +118,8 @@ path::ArcPlane plane_of(const Modal& modal);
 
 /// Machine minus work coordinates: work offset, external, G52, G92; with tool length on Z.
 Axes shift_of(const State& state);
+/// Programmed coordinates through mirror and scaling.
+Eigen::Vector3d imaged(const State& state, const Eigen::Vector3d& programmed);
 /// Programmed coordinates through mirror, scaling and rotation, still in the local system.
 Eigen::Vector3d transformed(const State& state, const Eigen::Vector3d& programmed);
 Eigen::Vector3d untransformed(const State& state, const Eigen::Vector3d& point);
