@@ -64,7 +64,8 @@ std::string value_cases(const std::vector<const Syntax*>& commands, const Syntax
       const std::string path = path_of(*command, program);
       std::vector<std::string> patterns;
       for (const std::string& name : option.names)
-        patterns.push_back(path.empty() ? "*" + quoted(" " + name) : quoted(path + " " + name));
+        patterns.push_back(path.empty() ? "*" + quoted(" " + name)
+                                        : quoted(fmt::format("{} {}", path, name)));
       cases += fmt::format("    {}) {}; return ;;\n", fmt::join(patterns, "|"), words_for(option));
     }
   return cases;

@@ -104,7 +104,7 @@ Outcome run_item(const Session& session, Item& item, const Arguments& arguments,
     if (item.was_there) return Outcome{};
     jobs::parse(text);
     const auto listener = [](double, std::string_view) {};
-    const Outcome outcome = outcome_of(session.ask(text, format, listener), format);
+    Outcome outcome = outcome_of(session.ask(text, format, listener), format);
     if (outcome.status != ExitStatus::Done) return outcome;
     write_file(item.output, outcome.text);
     journal.add(item, text);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_digits = 8;
 
-bool begins_with_O(const std::string& name) {
+bool begins_with_o(const std::string& name) {
   return !name.empty() && (name.front() == 'O' || name.front() == 'o');
 }
 
@@ -30,7 +30,7 @@ bool is_program_name(const std::string& name) {
 
 int program_number(const std::string& file_name) {
   const std::string stem = std::filesystem::path(file_name).stem().string();
-  const std::string digits = begins_with_O(stem) ? stem.substr(1) : stem;
+  const std::string digits = begins_with_o(stem) ? stem.substr(1) : stem;
   const bool is_number = !digits.empty() && digits.size() <= most_digits &&
                          std::all_of(digits.begin(), digits.end(), [](char c) {
                            return std::isdigit(static_cast<unsigned char>(c)) != 0;
@@ -52,7 +52,7 @@ std::map<std::string, std::string> read_programs(const std::string& folder,
   // Files that begin with O last, so that they win; otherwise in the order of their names.
   std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
     const std::string x = a.filename().string(), y = b.filename().string();
-    return std::pair(begins_with_O(x), x) < std::pair(begins_with_O(y), y);
+    return std::pair(begins_with_o(x), x) < std::pair(begins_with_o(y), y);
   });
   std::map<std::string, std::string> programs;
   const auto calls_names = [](const std::string& text) { return text.find('<') != text.npos; };

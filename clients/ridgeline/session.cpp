@@ -105,7 +105,7 @@ jobs::Answer Session::compute(const std::string& job, const std::string& format,
   Progress progress;
   progress.report = listener;
   progress.stop = stop.get_token();
-  const jobs::Answer result = answer(options_, job, format, progress);
+  jobs::Answer result = answer(options_, job, format, progress);
   const bool is_cancelled = jobs::is_error(result) &&
                             result.document.at("error").at("code") == name(ErrorCode::Cancelled);
   if (!is_cancelled || !deadline.has_passed() || interrupt_.is_interrupted()) return result;

@@ -59,14 +59,14 @@ public:
     double ridge = 1e300;
     for (const CutPoint& border : borders_) {
       const double near = std::min((border.G1 - c).norm(), (border.G2 - c).norm());
-      deepest = std::max(deepest, room_.D() - near);
+      deepest = std::max(deepest, room_.ball_radius() - near);
       ridge = std::min(ridge, (border.P - c).norm());
     }
     const geometry::Solid::Nearest nearest = room_.solid().nearest(c);
     if (is_chamfer(nearest.point)) return deepest;
-    if (geometry::distance(room_.solid().material(), c) <= 0) return room_.D();
-    if (nearest.distance < room_.D()) {
-      deepest = std::max(deepest, room_.D() - nearest.distance);
+    if (geometry::distance(room_.solid().material(), c) <= 0) return room_.ball_radius();
+    if (nearest.distance < room_.ball_radius()) {
+      deepest = std::max(deepest, room_.ball_radius() - nearest.distance);
     }
     return deepest;
   }
@@ -152,7 +152,7 @@ std::vector<Vector3d> Planner::ready_places(const Vector3d& from,
   }
   std::vector<Vector3d> places;
   const double start = height(from);
-  const double D = room_.D();
+  const double D = room_.ball_radius();
   for (const double z :
        {start, low, high, low - D / 2, high + D / 2, start / 2, low - D, high + D, 0.0}) {
     places.push_back(geometry::to_outer(edge_.frame, {0, 0, z}));
@@ -162,7 +162,7 @@ std::vector<Vector3d> Planner::ready_places(const Vector3d& from,
 
 Planner::Lead Planner::lead(const CutPoint& p, const Vector3d& travel,
                             const std::vector<CutPoint>& loop) {
-  const double wanted = job_.lead_radius.value_or(lead_of_radius * room_.D());
+  const double wanted = job_.lead_radius.value_or(lead_of_radius * room_.ball_radius());
   double r = wanted;
   Lead best;
   for (int i = 0; i < most_halvings; ++i, r /= 2) {
@@ -220,7 +220,8 @@ void Planner::cut(const Round& round) {
 // Rapid above the workpiece, rapid down to where the clearance ends, then at feed.
 void Planner::approach(const Vector3d& ready) {
   base_ = base_of(ready);
-  const double plane = extent(job_.workpiece, route_.tool_axis) + job_.clearance + room_.D();
+  const double plane =
+      extent(job_.workpiece, route_.tool_axis) + job_.clearance + room_.ball_radius();
   top_ = last_clear_point(room_, route_, base_, job_.clearance, plane);
   const double rise = std::max(0.0, plane - top_.dot(route_.tool_axis));
   safe_ = top_ + rise * route_.tool_axis;
@@ -237,7 +238,7 @@ void Planner::retract() {
   go(MoveKind::Rapid, safe_, 0);
   if (!job_.end_position) return;
   const bool is_tip = job_.control_point == ControlPoint::Tip;
-  const Vector3d end = *job_.end_position + (is_tip ? room_.D() : 0) * route_.tool_axis;
+  const Vector3d end = *job_.end_position + (is_tip ? room_.ball_radius() : 0) * route_.tool_axis;
   const double rise = std::max(0.0, (safe_ - end).dot(route_.tool_axis));
   go(MoveKind::Rapid, end + rise * route_.tool_axis, 0);
   go(MoveKind::Rapid, end, 0);

@@ -150,8 +150,8 @@ bool is_clear_above(const Room& room, const Vector3d& axis, Vector3d c, double c
 
 Vector3d last_clear_point(const Room& room, const Route& route, const Vector3d& base,
                           double clearance, double plane) {
-  const double far =
-      4 * room.solid().reach() + 2 * clearance + 2 * room.D() + (base - route.point).norm();
+  const double far = 4 * room.solid().reach() + 2 * clearance + 2 * room.ball_radius() +
+                     (base - route.point).norm();
   double h = far;
   while (h > 0) {
     const double spare = room.around(base + h * route.outward) - clearance;

@@ -37,7 +37,7 @@ public:
   /// Of neck, shank and holder.
   double above(const Eigen::Vector3d& c) const;
   const geometry::Solid& solid() const { return solid_; }
-  double D() const { return D_; }
+  double ball_radius() const { return D_; }
 
 private:
   struct Sample {

@@ -60,7 +60,7 @@ ProfilePoint profile_at(const Profile& profile, double u) {
       return arc_point(profile, corners[k], phi);
     }
     if (k < 3 && s < start[2 * k + 2]) {
-      const Eigen::Vector2d n = sides[k];
+      const Eigen::Vector2d& n = sides[k];
       const Eigen::Vector2d t(-n.y(), n.x());
       return {.p = corners[k] + profile.R2 * n + (s - start[2 * k + 1]) * t,
               .tangent = t,

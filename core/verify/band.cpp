@@ -79,7 +79,7 @@ Band::Band(const Edge& edge, const geometry::Trace& path, double D, double width
     : edge_(edge), path_(path), D_(D), width_(width) {}
 
 Foot Band::foot(const Eigen::Vector3d& p) const {
-  const Foot found = path_.nearest(geometry::to_outer(edge_.frame, p), hint_);
+  Foot found = path_.nearest(geometry::to_outer(edge_.frame, p), hint_);
   hint_ = found.piece;
   return found;
 }

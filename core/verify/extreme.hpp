@@ -60,7 +60,7 @@ Extreme sampled_maximum(const std::vector<double>& samples, const Function& f, E
     return std::isfinite(rise) ? samples[i] + rise : samples[i];
   };
   std::vector<std::size_t> peaks;
-  Extreme best{-INFINITY, 0};
+  Extreme best{-HUGE_VAL, 0};
   for (std::size_t i = 0; i < n; ++i) {
     if (samples[i] > best.value) best = {samples[i], static_cast<double>(i)};
     if (samples[i] >= samples[before(i)] && samples[i] >= samples[after(i)]) peaks.push_back(i);
