@@ -70,10 +70,11 @@ void Client::Session::send(Lock& lock, Pending& pending, const std::shared_ptr<I
   const wire::Sent sent{pending.id, to->status.name, name_, format, seconds(patience.timeout)};
   const bool is_written = std::visit(
       [&](const auto& what) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(what)>, wire::Call>)
+        if constexpr (std::is_same_v<std::decay_t<decltype(what)>, wire::Call>) {
           return to->write(channel, wire::borrow(sent, what), patience.timeout);
-        else
+        } else {
           return to->write(channel, wire::borrow(sent, *what), patience.timeout);
+        }
       },
       call);
   lock.lock();

@@ -20,7 +20,7 @@ Client::~Client() = default;
 
 jobs::Answer Client::ask(std::string_view job, std::string_view format,
                          const Patience& patience) noexcept {
-  if (job.size() > dds::max_request_bytes)
+  if (job.size() > dds::max_request_bytes) {
     return jobs::refusal({ErrorCode::BadInput,
                           fmt::format("the job is {} bytes long", job.size()),
                           {.field = "",
@@ -28,9 +28,11 @@ jobs::Answer Client::ask(std::string_view job, std::string_view format,
                            .limit = fmt::format("{} bytes", dds::max_request_bytes),
                            .parameter = {},
                            .target = {}}});
+  }
   const std::string text(job);
-  if (text.find('\0') != text.npos)
+  if (text.find('\0') != text.npos) {
     return jobs::refusal({ErrorCode::BadInput, "the job holds a zero byte: it is not JSON"});
+  }
   const Channel channel = service::asks_for_change(job) ? Channel::Change : Channel::Compute;
   return session_->ask(wire::Call{wire::CallKind::Job, text.c_str()}, channel, std::string(format),
                        patience);

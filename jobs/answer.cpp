@@ -50,13 +50,14 @@ Answer run(std::string_view job, std::string_view format, const Definitions& def
            const Progress& progress) {
   const nlohmann::json document = parse(job);
   const Kind& kind = kind_of(document);
-  if (std::ranges::find(kind.formats, format) == kind.formats.end())
+  if (std::ranges::find(kind.formats, format) == kind.formats.end()) {
     refuse({.code = ErrorCode::Unsupported,
             .field = "",
             .value = std::string(format),
             .limit = alternatives(kind.formats),
             .message = "a " + std::string(kind.name) + " job has no format \"" + shortened(format) +
                        "\": ask for " + alternatives(kind.formats)});
+  }
   return kind.run({document, format, definitions, progress});
 }
 
@@ -77,6 +78,7 @@ Answer answer(std::string_view job, std::string_view format, const Definitions& 
 
 std::vector<std::string> job_names() {
   std::vector<std::string> names;
+  names.reserve(kinds.size());
   for (const Kind& kind : kinds) names.emplace_back(kind.name);
   return names;
 }

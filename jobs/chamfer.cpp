@@ -82,8 +82,9 @@ Solved solve_to_width(const ChamferJob& job, const Progress& progress) {
 
 /// Throws the first failure of a program that must not be emitted.
 void refuse_failures(const ChamferJob& job, const Solved& solved) {
-  for (const Failure& failure : failures(job, solved.subject, solved.report))
+  for (const Failure& failure : failures(job, solved.subject, solved.report)) {
     if (!is_width(failure) || keeps_width(job)) throw failure.error;
+  }
 }
 
 nlohmann::json named(const std::string& name, const std::optional<int>& revision) {
@@ -105,10 +106,12 @@ nlohmann::json report(const Solved& solved) {
 
 std::vector<std::string> warnings(const ChamferJob& job, const Solved& solved) {
   std::vector<std::string> all = job.warnings;
-  for (const std::string& warning : solved.result.warnings)
+  for (const std::string& warning : solved.result.warnings) {
     if (std::ranges::find(all, warning) == all.end()) all.push_back(warning);
-  for (const std::string& warning : unchecked(solved.report))
+  }
+  for (const std::string& warning : unchecked(solved.report)) {
     if (std::ranges::find(all, warning) == all.end()) all.push_back(warning);
+  }
   return all;
 }
 
@@ -170,8 +173,9 @@ std::string text_of(const ChamferJob& job, const Solved& solved, const nlohmann:
   if (format == "csv") return nc::write_csv(solved.rounded);
   if (format == "macro") return chamfer_macro(job);
   if (format == "svg") return chamfer_drawing(job.job, solved.subject.edge, solved.result);
-  if (format == "html")
+  if (format == "html") {
     return chamfer_page(job, solved.result, solved.rounded, solved.subject, document);
+  }
   throw Error(ErrorCode::Internal, "a format that chamfer jobs list but do not write");
 }
 
@@ -185,10 +189,11 @@ Answer chamfer(const Request& request) {
   refuse_failures(job, solved);
   Answer answer = document_of(job, solved);
   if (job.job.arcs) add_plane(solved, answer);
-  if (request.format == "json")
+  if (request.format == "json") {
     add_arrays(solved, answer);
-  else
+  } else {
     answer.text = text_of(job, solved, answer.document, request.format);
+  }
   return answer;
 }
 

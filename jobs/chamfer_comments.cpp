@@ -17,8 +17,9 @@ std::string revision(const std::optional<int>& revision) {
 }
 
 std::string section_angle(const chamfer::SectionAngle& angle) {
-  if (const auto* constant = std::get_if<chamfer::ConstantAngle>(&angle))
+  if (const auto* constant = std::get_if<chamfer::ConstantAngle>(&angle)) {
     return rounded(degrees(constant->delta)) + " deg";
+  }
   return std::holds_alternative<chamfer::Bisector>(angle) ? "bisector" : "table";
 }
 

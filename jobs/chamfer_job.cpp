@@ -75,8 +75,9 @@ chamfer::AngleTable read_angle_table(const Value& value) {
   for (const Value& entry : value.array(1, max_entries)) {
     const std::vector<Value> pair = entry.array(2, 2);
     const double phi = radians(pair[0].number({0, 360, "degrees", false, true}));
-    if (!table.entries.empty() && !(phi > table.entries.back().phi))
+    if (!table.entries.empty() && !(phi > table.entries.back().phi)) {
       pair[0].refuse("greater than the angle before it: the table ascends in phi");
+    }
     table.entries.push_back({phi, radians(pair[1].number(section_angle_range))});
   }
   return table;
@@ -85,19 +86,22 @@ chamfer::AngleTable read_angle_table(const Value& value) {
 chamfer::SectionAngle read_section_angle(Object& object) {
   const std::optional<Value> value = object.optional("section_angle");
   if (!value) return chamfer::Bisector{};
-  if (value->json().is_number())
+  if (value->json().is_number()) {
     return chamfer::ConstantAngle{radians(value->number(section_angle_range))};
+  }
   if (value->json().is_array()) return read_angle_table(*value);
-  if (!value->is_word("bisector"))
+  if (!value->is_word("bisector")) {
     value->refuse("\"bisector\", an angle in degrees or a table [[phi, angle], ...]");
+  }
   return chamfer::Bisector{};
 }
 
 /// W, given or by the cutting amount: W = sqrt(2) Q [E 1].
 double read_width(Object& object) {
   object.exclude("width", "cutting_amount");
-  if (const std::optional<double> Q = object.optional_number("cutting_amount", width_range))
+  if (const std::optional<double> Q = object.optional_number("cutting_amount", width_range)) {
     return std::numbers::sqrt2 * *Q;
+  }
   if (!object.has("width")) object.refuse("width", "give it or cutting_amount");
   return object.number("width", width_range);
 }
@@ -111,12 +115,14 @@ std::vector<double> read_passes(Object& object, double width) {
   if (value->json().is_array()) {
     for (const Value& each : value->array(1, max_passes)) {
       widths.push_back(each.number(width_range));
-      if (widths.size() > 1 && !(widths.back() > widths[widths.size() - 2]))
+      if (widths.size() > 1 && !(widths.back() > widths[widths.size() - 2])) {
         each.refuse("wider than the pass before it");
+      }
     }
     constexpr double same_width = 1e-6;  // mm; a cutting amount gives an irrational width
-    if (!(std::abs(widths.back() - width) <= same_width))
+    if (!(std::abs(widths.back() - width) <= same_width)) {
       value->refuse("a list that ends with the job's width " + text(width) + " mm");
+    }
     widths.back() = width;
     return widths;
   }
@@ -134,13 +140,15 @@ void read_motion(Object& object, chamfer::Job& job) {
   job.pass_widths = read_passes(object, job.width);
   job.spring_pass = object.boolean("spring_pass", false);
   job.feed = object.number("feed", feed_range, 300) / 60;
-  if (const std::optional<double> feed = object.optional_number("lead_in_feed", feed_range))
+  if (const std::optional<double> feed = object.optional_number("lead_in_feed", feed_range)) {
     job.lead_in_feed = *feed / 60;
+  }
   job.feed_at = object.choice("feed_at", feed_points, job.feed_at);
   job.clearance = object.number("clearance", above(0, 1e5, "mm"), job.clearance);
   job.lead_radius = object.optional_number("lead_radius", radius_range);
-  if (const std::optional<Value> end = object.optional("end_position"))
+  if (const std::optional<Value> end = object.optional("end_position")) {
     job.end_position = end->vector3(coordinate_range);
+  }
 }
 
 /// true: by 10; a number: by that; false: none.
@@ -161,8 +169,9 @@ std::string read_work_offset(Object& output, const std::string& otherwise) {
     return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == ' ';
   };
   constexpr std::size_t longest = 16;
-  if (offset.size() > longest || !std::ranges::all_of(offset, is_part))
+  if (offset.size() > longest || !std::ranges::all_of(offset, is_part)) {
     value->refuse("a work offset such as \"G54\"");
+  }
   return offset;
 }
 
@@ -195,11 +204,12 @@ void read_output(const Value& value, ChamferJob& result) {
 std::string take_hole(geometry::Hole hole, geometry::Workpiece& workpiece) {
   if (hole.name.empty()) hole.name = "inline hole";
   const auto same = std::ranges::find(workpiece.holes, hole.name, &geometry::Hole::name);
-  const std::string name = hole.name;
-  if (same == workpiece.holes.end())
+  std::string name = hole.name;
+  if (same == workpiece.holes.end()) {
     workpiece.holes.push_back(std::move(hole));
-  else
+  } else {
     *same = std::move(hole);
+  }
   return name;
 }
 
@@ -214,8 +224,9 @@ void read_definitions(Object& object, const Definitions& definitions, ChamferJob
   result.job.tool = std::move(tool.tool);
   result.tool_revision = tool.revision;
   result.tool_dynamics = std::move(tool.dynamics);
-  if (result.job.tool.number == 0)
+  if (result.job.tool.number == 0) {
     result.warnings.emplace_back("the tool has no number: the program does not call one");
+  }
 }
 
 }  // namespace
@@ -245,8 +256,9 @@ ChamferJob read_chamfer_job(const Value& value, const Definitions& definitions) 
   job.tolerance = object.number("tolerance", tolerance_range, job.tolerance);
   job.section_angle = read_section_angle(object);
   job.method = object.choice("method", methods, job.method);
-  if (const std::optional<Value> points = object.optional("points"))
+  if (const std::optional<Value> points = object.optional("points")) {
     job.points = points->integer(3, max_points);
+  }
   read_motion(object, job);
   result.program.spindle_speed = object.number("spindle_speed", between(0, 1e6, "rev/min"), 8000);
   if (const std::optional<Value> output = object.optional("output")) read_output(*output, result);

@@ -32,26 +32,33 @@ const geometry::Hole& hole_of(const chamfer::Job& job) {
 /// What the macro's arithmetic does not have.
 void check_form(const ChamferJob& chamfer, const geometry::Hole& hole) {
   const chamfer::Job& job = chamfer.job;
-  if (hole.profile.straight_along != 0 || hole.profile.straight_across != 0)
+  if (hole.profile.straight_along != 0 || hole.profile.straight_across != 0) {
     refuse_form("/hole", "round holes");
-  if (std::abs(hole.axis.normalized().z()) < 1 - square)
+  }
+  if (std::abs(hole.axis.normalized().z()) < 1 - square) {
     refuse_form("/hole", "holes along Z, the tool's axis");
-  if (std::abs(job.workpiece.axis.normalized().z()) > square)
+  }
+  if (std::abs(job.workpiece.axis.normalized().z()) > square) {
     refuse_form("/workpiece", "bores square to Z");
+  }
   const bool is_block = job.workpiece.shape == geometry::BodyShape::ManifoldBlock;
-  if (is_block && job.edge == geometry::EdgeKind::Outer)
+  if (is_block && job.edge == geometry::EdgeKind::Outer) {
     refuse_form("/edge", "edges on cylinders, not on plane faces");
+  }
   if (const auto* axis = std::get_if<Eigen::Vector3d>(&job.tool_axis)) {
     if (axis->normalized().z() < 1 - square) refuse_form("/tool_axis", "the tool along +Z");
   } else if (std::get<chamfer::Access>(job.tool_axis) != chamfer::Access::Hole) {
     refuse_form("/tool_axis", "the tool through the hole");
   }
-  if (std::holds_alternative<chamfer::AngleTable>(job.section_angle))
+  if (std::holds_alternative<chamfer::AngleTable>(job.section_angle)) {
     refuse_form("/section_angle", "the bisector or one angle");
-  if (!job.pass_widths.empty() || job.spring_pass)
+  }
+  if (!job.pass_widths.empty() || job.spring_pass) {
     refuse_form("/passes", "one pass of the width in argument W; call it again for each");
-  if (job.control_point != chamfer::ControlPoint::Tip)
+  }
+  if (job.control_point != chamfer::ControlPoint::Tip) {
     refuse_form("/output/control_point", "programs of the tip");
+  }
   const bool is_known = chamfer.program.dialect == nc::Dialect::Fanuc ||
                         chamfer.program.dialect == nc::Dialect::LinuxCnc;
   if (!is_known) refuse_form("/output/dialect", "fanuc and linuxcnc");
@@ -76,8 +83,9 @@ macro::HoleEdge edge_of(const ChamferJob& chamfer, const geometry::Hole& hole) {
   edge.R2 = hole.profile.R2;
   edge.f = geometry::eccentric_distance(job.workpiece, upright);
   edge.width = job.width;
-  if (const auto* angle = std::get_if<chamfer::ConstantAngle>(&job.section_angle))
+  if (const auto* angle = std::get_if<chamfer::ConstantAngle>(&job.section_angle)) {
     edge.section_angle = degrees(angle->delta);
+  }
   edge.ball_radius = tool::cutting_radius(job.tool);
   edge.offset_number = job.tool.length_offset > 0 ? job.tool.length_offset
                        : job.tool.number > 0      ? job.tool.number

@@ -48,8 +48,9 @@ nlohmann::json number_or_null(const std::optional<double>& number) {
 verify::Subject subject_of(const ChamferJob& job, const Eigen::Vector3d& tool_axis) {
   const chamfer::Job& j = job.job;
   const auto hole = std::ranges::find(j.workpiece.holes, j.hole, &geometry::Hole::name);
-  if (hole == j.workpiece.holes.end())
+  if (hole == j.workpiece.holes.end()) {
     throw Error(ErrorCode::Internal, "the job's hole is not in its workpiece");
+  }
   verify::Subject subject;
   subject.workpiece = j.workpiece;
   subject.edge = geometry::edge_of(j.workpiece, *hole, j.edge, j.side);
@@ -66,26 +67,32 @@ std::vector<Failure> failures(const ChamferJob& job, const verify::Subject& subj
                               const verify::Report& report) {
   std::vector<Failure> failed;
   const std::string clear = "greater than 0 mm";
-  if (report.neck_clearance && !(*report.neck_clearance > 0))
+  if (report.neck_clearance && !(*report.neck_clearance > 0)) {
     failed.push_back(failure(ErrorCode::NeckCollision, "clearance of neck and shank",
                              *report.neck_clearance, clear, report.neck_at));
-  if (report.holder_clearance && !(*report.holder_clearance > 0))
+  }
+  if (report.holder_clearance && !(*report.holder_clearance > 0)) {
     failed.push_back(failure(ErrorCode::HolderCollision, "clearance of the holder",
                              *report.holder_clearance, clear, report.holder_at));
+  }
   const double limit = width_limit(job);
-  if (!(report.overcut <= limit))
+  if (!(report.overcut <= limit)) {
     failed.push_back(failure(ErrorCode::ToolTooLarge, "the cut outside the chamfer", report.overcut,
                              "at most " + text(limit) + " mm deep", report.overcut_at));
-  if (!(report.rapid_clearance > 0))
+  }
+  if (!(report.rapid_clearance > 0)) {
     failed.push_back(failure(ErrorCode::VerificationFailed, "clearance of rapids",
                              report.rapid_clearance, clear, report.rapid_at));
+  }
   const std::string width = text(subject.width) + " mm within " + text(limit) + " mm";
-  if (!(report.width_min >= subject.width - limit))
+  if (!(report.width_min >= subject.width - limit)) {
     failed.push_back(
         width_failure("the least width", report.width_min, report.width_min_at, width));
-  if (!(report.width_max <= subject.width + limit))
+  }
+  if (!(report.width_max <= subject.width + limit)) {
     failed.push_back(
         width_failure("the greatest width", report.width_max, report.width_max_at, width));
+  }
   return failed;
 }
 
@@ -114,10 +121,12 @@ nlohmann::json report_document(const verify::Report& report) {
 
 std::vector<std::string> unchecked(const verify::Report& report) {
   std::vector<std::string> warnings;
-  if (!report.neck_clearance)
+  if (!report.neck_clearance) {
     warnings.emplace_back("neck and shank of the tool are not described: not checked");
-  if (!report.holder_clearance)
+  }
+  if (!report.holder_clearance) {
     warnings.emplace_back("the holder of the tool is not described: not checked");
+  }
   return warnings;
 }
 

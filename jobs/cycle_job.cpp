@@ -274,6 +274,7 @@ void read_motion(Params& params, Cycle& cycle) {
 // The points that tests/oracle/cycles turns, when a job gives none.
 std::vector<Vector3d> sample_points() {
   std::vector<Vector3d> points;
+  points.reserve(8);
   for (int i = 0; i < 8; ++i) points.emplace_back(10 + 3 * i, -4 + 2 * i, -i);
   return points;
 }

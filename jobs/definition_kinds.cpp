@@ -51,8 +51,9 @@ void validate_definition(const nlohmann::json& definition) {
   const Value value(definition);
   const Value kind = Object(value).required("kind");
   const std::string& name = kind.string();
-  for (const DefinitionKind& each : kinds)
+  for (const DefinitionKind& each : kinds) {
     if (each.name == name) return each.check(value);
+  }
   std::array<std::string_view, kinds.size()> names;
   for (std::size_t i = 0; i < kinds.size(); ++i) names[i] = kinds[i].name;
   kind.refuse(alternatives(names));
@@ -63,8 +64,9 @@ DefinitionKey key_of(const nlohmann::json& definition) {
   DefinitionKey key;
   key.kind = object.required("kind").string();
   if (const std::optional<Value> name = object.optional("name")) key.name = name->string();
-  if (const std::optional<Value> number = object.optional("number"))
+  if (const std::optional<Value> number = object.optional("number")) {
     key.alias = std::to_string(number->integer(1, max_tool_number));
+  }
   if (key.name.empty()) key.name = key.alias.value();
   return key;
 }

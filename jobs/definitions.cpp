@@ -56,10 +56,12 @@ geometry::Profile read_profile(Object& object) {
   const HoleShape shape = object.required("shape").choice(hole_shapes);
   geometry::Profile profile;
   profile.R2 = object.number("radius", radius_range);
-  if (shape != HoleShape::Circle)
+  if (shape != HoleShape::Circle) {
     profile.straight_along = object.number("straight_along", length_range);
-  if (shape == HoleShape::RoundedRectangle)
+  }
+  if (shape == HoleShape::RoundedRectangle) {
     profile.straight_across = object.number("straight_across", length_range);
+  }
   return profile;
 }
 
@@ -69,13 +71,15 @@ Eigen::Vector3d read_hole_axis(Object& object, const Workpiece& body) {
   if (const std::optional<Value> axis = object.optional("axis")) return axis->direction();
   const double beta = radians(object.number(
       "penetration_angle", inside(-max_penetration_angle, max_penetration_angle, "degrees"), 0));
-  const Eigen::Vector3d Z = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d Z = Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d towards_A1 = body.axis - body.axis.dot(Z) * Z;
   constexpr double vertical = 1e-9;  // below it A1 has no horizontal direction to tilt towards
-  if (towards_A1.norm() > vertical)
+  if (towards_A1.norm() > vertical) {
     return std::cos(beta) * Z + std::sin(beta) * towards_A1.normalized();
-  if (beta != 0)
+  }
+  if (beta != 0) {
     object.refuse("penetration_angle", "absent where A1 is vertical: give the hole's axis");
+  }
   return Z;
 }
 
@@ -105,11 +109,12 @@ void read_hole_place(Object& object, const Workpiece& body, Hole& hole) {
     hole.position = geometry::position_of(body, hole.axis, f);
     return;
   }
-  if (!(std::abs(f - f_of_positions) <= eccentricity_tolerance))
+  if (!(std::abs(f - f_of_positions) <= eccentricity_tolerance)) {
     refuse({.code = ErrorCode::InconsistentEccentricity,
             .field = object.pointer() + "/eccentric_distance",
             .value = text(f),
             .limit = text(f_of_positions) + " mm within 1e-6 mm, as the positions give it"});
+  }
 }
 
 Eigen::Vector3d read_body_axis(Object& object) {
@@ -122,9 +127,10 @@ Eigen::Vector3d read_body_axis(Object& object) {
 void read_cylinder(Object& object, Workpiece& workpiece) {
   workpiece.inner_radius = object.number("inner_radius", radius_range);
   workpiece.outer_radius = object.number("outer_radius", radius_range);
-  if (!(workpiece.outer_radius > workpiece.inner_radius))
+  if (!(workpiece.outer_radius > workpiece.inner_radius)) {
     object.refuse("outer_radius",
                   "greater than inner_radius " + text(workpiece.inner_radius) + " mm");
+  }
   workpiece.length = object.number("length", radius_range);
 }
 
@@ -134,8 +140,9 @@ void read_block(Object& object, Workpiece& workpiece) {
   workpiece.size = size.vector3(radius_range);
   workpiece.length = workpiece.size.y();
   const double D1 = 2 * workpiece.inner_radius;
-  if (!(workpiece.size.x() > D1 && workpiece.size.z() > D1))
+  if (!(workpiece.size.x() > D1 && workpiece.size.z() > D1)) {
     size.refuse("wider and higher than the bore's " + text(D1) + " mm");
+  }
 }
 
 void read_holes(Object& object, Workpiece& workpiece) {
@@ -145,8 +152,9 @@ void read_holes(Object& object, Workpiece& workpiece) {
   for (const Value& value : holes->array(0, max_holes)) {
     Hole hole = read_hole(value, workpiece);
     if (hole.name.empty()) Object(value).refuse("name", "given");
-    if (!names.insert(hole.name).second)
+    if (!names.insert(hole.name).second) {
       Object(value).refuse("name", "another name than the holes before it");
+    }
     workpiece.holes.push_back(std::move(hole));
   }
 }
@@ -159,26 +167,33 @@ void read_tool_body(Object& object, Tool& tool) {
   tool.stickout = object.optional_number("stickout", radius_range);
   tool.holder_radius = object.optional_number("holder_radius", radius_range);
   const std::string ball = "the ball's radius " + text(tool.radius) + " mm";
-  if (tool.neck_radius && !(*tool.neck_radius <= tool.radius))
+  if (tool.neck_radius && !(*tool.neck_radius <= tool.radius)) {
     object.refuse("neck_radius", "at most " + ball);
-  if (tool.shape == ToolShape::Lollipop && tool.neck_radius && *tool.neck_radius == tool.radius)
+  }
+  if (tool.shape == ToolShape::Lollipop && tool.neck_radius && *tool.neck_radius == tool.radius) {
     object.refuse("neck_radius", "less than " + ball);
-  if (tool.neck_length && !(*tool.neck_length >= tool.radius))
+  }
+  if (tool.neck_length && !(*tool.neck_length >= tool.radius)) {
     object.refuse("neck_length", "at least " + ball);
-  if (tool.stickout && !(*tool.stickout >= tool.neck_length.value_or(tool.radius)))
+  }
+  if (tool.stickout && !(*tool.stickout >= tool.neck_length.value_or(tool.radius))) {
     object.refuse("stickout", "at least neck_length and radius");
-  if (tool.neck_radius && tool.shank_radius && !tool.neck_length)
+  }
+  if (tool.neck_radius && tool.shank_radius && !tool.neck_length) {
     object.refuse("neck_length", "given where neck and shank are: the shank begins there");
-  if (tool.holder_radius && !tool.stickout)
+  }
+  if (tool.holder_radius && !tool.stickout) {
     object.refuse("stickout", "given where the holder's radius is: the holder begins there");
+  }
 }
 
 /// "; nearest: a, b" or "; the library has none", for the message of an unknown name.
 std::string nearest_text(std::string_view wanted, std::vector<std::string> names) {
   if (names.empty()) return "there is none at all";
   std::string list;
-  for (const std::string& name : nearest(wanted, std::move(names)))
+  for (const std::string& name : nearest(wanted, std::move(names))) {
     list += (list.empty() ? "nearest: " : ", ") + shortened(name);
+  }
   return list;
 }
 
@@ -216,8 +231,9 @@ Hole read_hole(const Value& value, const Workpiece& body) {
   read_hole_place(object, body, hole);
   hole.depth = object.optional_number("depth", radius_range);
   hole.walls = object.integer("walls", 1, 2, hole.depth ? 1 : 2);
-  if (hole.depth && hole.walls != 1)
+  if (hole.depth && hole.walls != 1) {
     object.refuse("walls", "1 where the hole has a depth: a blind hole ends in its first wall");
+  }
   object.finish();
   return hole;
 }
@@ -228,13 +244,15 @@ Workpiece read_workpiece(const Value& value) {
   Workpiece workpiece;
   workpiece.name = optional_name(object, "name");
   workpiece.shape = object.required("shape").choice(body_shapes);
-  if (const std::optional<Value> position = object.optional("position"))
+  if (const std::optional<Value> position = object.optional("position")) {
     workpiece.position = position->vector3(coordinate_range);
+  }
   workpiece.axis = read_body_axis(object);
-  if (workpiece.shape == BodyShape::ThickWalledCylinder)
+  if (workpiece.shape == BodyShape::ThickWalledCylinder) {
     read_cylinder(object, workpiece);
-  else
+  } else {
     read_block(object, workpiece);
+  }
   optional_name(object, "material");
   read_holes(object, workpiece);
   object.finish();
@@ -255,17 +273,20 @@ Tool read_tool(const Value& value) {
   tool.helix_angle = radians(object.number("helix_angle", inside(-90, 90, "degrees"), 0));
   tool.spindle = object.choice("spindle", spindle_senses, tool.spindle);
   tool.length_offset = object.integer("length_offset", 1, 999, 0);
-  if (const std::optional<Value> dynamics = object.optional("dynamics"))
+  if (const std::optional<Value> dynamics = object.optional("dynamics")) {
     check_dynamics(*dynamics, tool);
+  }
   object.finish();
   return tool;
 }
 
 ResolvedWorkpiece resolve_workpiece(const Value& value, const Definitions& definitions) {
-  if (!value.json().is_string() && !value.json().is_object())
+  if (!value.json().is_string() && !value.json().is_object()) {
     value.refuse("a name of the library or a workpiece object");
-  if (value.json().is_object())
+  }
+  if (value.json().is_object()) {
     return {read_workpiece(value), std::nullopt, material_of(value.json())};
+  }
   const Definition found =
       find(value, ErrorCode::UnknownWorkpiece, "workpiece", value.string(), definitions);
   return {read_workpiece(Value(found.document, value.pointer())), found.revision,
@@ -274,8 +295,9 @@ ResolvedWorkpiece resolve_workpiece(const Value& value, const Definitions& defin
 
 ResolvedTool resolve_tool(const Value& value, const Definitions& definitions) {
   if (value.json().is_object()) return {read_tool(value), std::nullopt, dynamics_of(value.json())};
-  if (!value.json().is_string() && !value.json().is_number())
+  if (!value.json().is_string() && !value.json().is_number()) {
     value.refuse("a number or a name of the library, or a tool object");
+  }
   const std::string name =
       value.json().is_string() ? value.string() : std::to_string(value.integer(1, max_tool_number));
   const Definition found = find(value, ErrorCode::UnknownTool, "tool", name, definitions);

@@ -49,8 +49,9 @@ std::size_t width(const Column& column) {
 }
 
 std::size_t name_index(const Column& column, double cell) {
-  if (!(cell >= 0 && cell < static_cast<double>(column.names.size())))
+  if (!(cell >= 0 && cell < static_cast<double>(column.names.size()))) {
     throw Error(ErrorCode::Internal, "a table cell without a name in column " + column.key);
+  }
   return static_cast<std::size_t>(cell);
 }
 
@@ -83,10 +84,11 @@ template <class Sink>
 void give_numbers(Sink& sink, std::span<const std::size_t> shape, const double*& cell) {
   sink.begin_array();
   for (std::size_t i = 0; i < shape.front(); ++i) {
-    if (shape.size() == 1)
+    if (shape.size() == 1) {
       sink.number(*cell++);
-    else
+    } else {
       give_numbers(sink, shape.subspan(1), cell);
+    }
   }
   sink.end_array();
 }
@@ -101,16 +103,18 @@ struct Placed {
 Placed placed(const Array& array, const Json& document) {
   const std::size_t count =
       std::accumulate(array.shape.begin(), array.shape.end(), std::size_t{1}, std::multiplies<>());
-  if (array.shape.empty() || count != array.values.size())
+  if (array.shape.empty() || count != array.values.size()) {
     throw Error(ErrorCode::Internal, "the shape of " + array.pointer + " does not hold its values");
+  }
   Placed result{&array, {}};
   const Json::json_pointer pointer(array.pointer);
   if (!document.contains(pointer)) return result;
   result.columns = read_columns(document.at(pointer));
   std::size_t cells = 0;
   for (const Column& column : result.columns) cells += width(column);
-  if (array.shape.size() != 2 || array.shape[1] != cells)
+  if (array.shape.size() != 2 || array.shape[1] != cells) {
     throw Error(ErrorCode::Internal, "the rows of " + array.pointer + " do not fit its columns");
+  }
   return result;
 }
 
@@ -119,8 +123,9 @@ void give(Sink& sink, const Placed& placed) {
   const double* cell = placed.array->values.data();
   if (placed.columns.empty()) return give_numbers(sink, placed.array->shape, cell);
   sink.begin_rows();
-  for (std::size_t i = 0; i < placed.array->shape[0]; ++i, cell += placed.array->shape[1])
+  for (std::size_t i = 0; i < placed.array->shape[0]; ++i, cell += placed.array->shape[1]) {
     give_row(sink, placed.columns, cell);
+  }
   sink.end_array();
 }
 
@@ -224,8 +229,9 @@ private:
 using Members = std::multimap<std::string, std::pair<std::string, Placed>>;
 
 bool is_plain(const Json& json) {
-  for (const Json& element : json)
+  for (const Json& element : json) {
     if (element.is_structured()) return false;
+  }
   return true;
 }
 
@@ -234,12 +240,13 @@ public:
   explicit Writer(const Members& members) : members_(members) {}
 
   void write(const Json& json, const std::string& pointer, std::size_t indent) {
-    if (json.is_object())
+    if (json.is_object()) {
       write_object(json, pointer, indent);
-    else if (json.is_array())
+    } else if (json.is_array()) {
       write_array(json, pointer, indent);
-    else
+    } else {
       out_ += json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    }
   }
   std::string take() { return std::move(out_); }
 
@@ -309,8 +316,9 @@ Answer refusal(const Error& error) {
   if (!details.value.empty()) object["value"] = valid_utf8(details.value);
   if (!details.limit.empty()) object["limit"] = valid_utf8(details.limit);
   if (details.parameter) object["at"]["parameter"] = *details.parameter;
-  if (details.target)
+  if (details.target) {
     object["at"]["target"] = {details.target->x(), details.target->y(), details.target->z()};
+  }
   return {{{"status", "error"}, {"error", object}}, {}, {}};
 }
 
@@ -329,8 +337,9 @@ std::string to_json(const Answer& answer) {
   for (const Array& array : answer.arrays) {
     const Json::json_pointer pointer(array.pointer);
     const Json::json_pointer parent = pointer.parent_pointer();
-    if (!answer.document.contains(parent) || !answer.document.at(parent).is_object())
+    if (!answer.document.contains(parent) || !answer.document.at(parent).is_object()) {
       throw Error(ErrorCode::Internal, "the document has no object to hold " + array.pointer);
+    }
     members.emplace(parent.to_string(), std::pair(pointer.back(), placed(array, answer.document)));
   }
   Writer writer(members);

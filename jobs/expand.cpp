@@ -38,10 +38,11 @@ Answer expand(const Request& request) {
       refuse_at(call, error);
     }
   });
-  if (request.format == "json")
+  if (request.format == "json") {
     answer.document["program"] = std::move(text);
-  else
+  } else {
     answer.text = std::move(text);
+  }
   return answer;
 }
 

@@ -65,8 +65,9 @@ public:
   void choose(std::string_view meaning, const char* first, const char* second, Json& to) const {
     const CallArgument* argument = find(meaning);
     if (!argument) return;
-    if (argument->value != 1 && argument->value != 2)
+    if (argument->value != 1 && argument->value != 2) {
       refuse_argument(*argument, std::string("1 (") + first + ") or 2 (" + second + ")");
+    }
     to[std::string(meaning)] = argument->value == 1 ? first : second;
   }
 
@@ -75,14 +76,15 @@ private:
 };
 
 std::string whole(const CallArgument& argument) {
-  if (argument.value != std::floor(argument.value) || std::abs(argument.value) > 1e9)
+  if (argument.value != std::floor(argument.value) || std::abs(argument.value) > 1e9) {
     refuse_argument(argument, "a whole number");
+  }
   return std::to_string(static_cast<long long>(argument.value));
 }
 
 /// The name that the binding gives the number, or the number as text.
 std::string named(const CallArgument& argument, const BoundCall& bound) {
-  const std::string number = whole(argument);
+  std::string number = whole(argument);
   const auto letter = bound.names.find(argument.letter);
   if (letter == bound.names.end()) return number;
   const auto name = letter->second.find(number);
@@ -92,7 +94,7 @@ std::string named(const CallArgument& argument, const BoundCall& bound) {
 /// A hole by number: the one of that name, of the name H and the number, or at that place in the
 /// workpiece's list.
 std::string hole_name(const CallArgument& argument, const BoundCall& bound, const Json& workpiece) {
-  const std::string name = named(argument, bound);
+  std::string name = named(argument, bound);
   if (!workpiece.is_object() || !workpiece.contains("holes")) return name;
   const Json& holes = workpiece.at("holes");
   const auto has = [&](const std::string& wanted) {
@@ -101,8 +103,9 @@ std::string hole_name(const CallArgument& argument, const BoundCall& bound, cons
   if (has(name)) return name;
   if (has("H" + name)) return "H" + name;
   const double place = argument.value;
-  if (place >= 1 && place <= static_cast<double>(holes.size()))
+  if (place >= 1 && place <= static_cast<double>(holes.size())) {
     return holes.at(static_cast<std::size_t>(place) - 1).value("name", name);
+  }
   return name;
 }
 
@@ -131,11 +134,13 @@ Json described_workpiece(const Arguments& arguments) {
 
 void add_workpiece(const Arguments& arguments, const BoundCall& bound,
                    const Definitions& definitions, Json& job) {
-  if (const CallArgument* workpiece = arguments.find("workpiece"))
+  if (const CallArgument* workpiece = arguments.find("workpiece")) {
     job["workpiece"] = named(*workpiece, bound);
+  }
   if (arguments.has("inner_radius") || arguments.has("outer_radius")) {
-    if (const CallArgument* workpiece = arguments.find("workpiece"))
+    if (const CallArgument* workpiece = arguments.find("workpiece")) {
       refuse_argument(*workpiece, "left out where the call gives the radii of the workpiece");
+    }
     job["workpiece"] = described_workpiece(arguments);
     job["hole"] = "H1";
     return;
@@ -143,8 +148,9 @@ void add_workpiece(const Arguments& arguments, const BoundCall& bound,
   for (const std::string_view meaning :
        {"length", "hole_radius", "eccentric_distance", "penetration_angle", "arrangement_angle",
         "position_x", "position_y", "position_z"}) {
-    if (const CallArgument* argument = arguments.find(meaning))
+    if (const CallArgument* argument = arguments.find(meaning)) {
       refuse_argument(*argument, "beside inner_radius or outer_radius: the workpiece is named");
+    }
   }
   const CallArgument* hole = arguments.find("hole");
   if (!hole) return;
@@ -174,8 +180,9 @@ void add_tool(const Arguments& arguments, const BoundCall& bound, Json& job) {
 
 char read_letter(const std::string& key, const Value& value) {
   const bool is_letter = key.size() == 1 && key[0] >= 'A' && key[0] <= 'Z';
-  if (!is_letter || std::string_view("GLNOP").find(key[0]) != std::string_view::npos)
+  if (!is_letter || std::string_view("GLNOP").find(key[0]) != std::string_view::npos) {
     value.refuse("under a letter A to Z other than G, L, N, O and P");
+  }
   return key[0];
 }
 

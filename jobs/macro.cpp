@@ -96,8 +96,9 @@ Answer run(const MacroJob& job, const Request& request) {
   if (request.format == "csv") answer.text = macro::csv_text(result);
   if (request.format == "trace") answer.text = macro::trace_text(result);
   if (request.format == "svg") answer.text = macro_drawing(result, "Motion of a macro program");
-  if (request.format == "html")
+  if (request.format == "html") {
     answer.text = macro_page(result, "Motion of a macro program", answer.document);
+  }
   return answer;
 }
 

@@ -85,8 +85,9 @@ Curves curves_of(const macro::Result& result) {
     if (move.kind == macro::MoveKind::Dwell) continue;
     const bool is_rapid = move.kind == macro::MoveKind::Rapid;
     auto& list = is_rapid ? curves.rapids : curves.cuts;
-    if (is_first || is_rapid != was_rapid)
+    if (is_first || is_rapid != was_rapid) {
       list.push_back(is_first ? std::vector<Vector3d>() : std::vector<Vector3d>{at});
+    }
     append_points(result, move, at, list.back());
     was_rapid = is_rapid;
     at = move.to;
@@ -105,6 +106,7 @@ void draw_view(Svg& svg, const Curves& curves, int i, int j, double left, double
   Bounds bounds;
   const auto flat = [&](const std::vector<Vector3d>& curve) {
     std::vector<Vector2d> points;
+    points.reserve(curve.size());
     for (const Vector3d& p : curve) points.emplace_back(p[i], p[j]);
     return points;
   };

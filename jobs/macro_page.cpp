@@ -90,9 +90,10 @@ std::string macro_page(const macro::Result& result, std::string_view title, cons
                {"warnings", Json::array()}};
   add_charts(motion, data);
   if (document.contains("warnings")) data["warnings"] = document.at("warnings");
-  if (document.contains("alarm"))
+  if (document.contains("alarm")) {
     data["warnings"].push_back("alarm " + document.at("alarm").at("number").dump() + ": " +
                                document.at("alarm").at("message").get<std::string>());
+  }
   return page(data);
 }
 

@@ -12,8 +12,9 @@ constexpr std::size_t longest_source = 400;
 std::string read_source(Object& object) {
   const std::optional<Value> source = object.optional("source");
   if (!source) return {};
-  if (source->string().size() > longest_source)
+  if (source->string().size() > longest_source) {
     source->refuse("text of at most " + std::to_string(longest_source) + " bytes");
+  }
   return source->string();
 }
 
@@ -31,8 +32,10 @@ cutting::Uncertainty read_uncertainty(const Value& value) {
 
 Material read_material(const Value& value) {
   Object object(value);
-  if (const std::optional<Value> kind = object.optional("kind"); kind && !kind->is_word("material"))
+  if (const std::optional<Value> kind = object.optional("kind");
+      kind && !kind->is_word("material")) {
     kind->refuse("\"material\"");
+  }
   Material material;
   if (const std::optional<Value> name = object.optional("name")) material.name = name->name();
   material.coefficients = {.Ktc = object.number("Ktc", per_area),
@@ -41,8 +44,9 @@ Material read_material(const Value& value) {
                            .Kre = object.number("Kre", per_length),
                            .Kac = object.number("Kac", per_area, 0),
                            .Kae = object.number("Kae", per_length, 0)};
-  if (const std::optional<Value> uncertainty = object.optional("uncertainty"))
+  if (const std::optional<Value> uncertainty = object.optional("uncertainty")) {
     material.uncertainty = read_uncertainty(*uncertainty);
+  }
   material.source = read_source(object);
   material.is_estimate = object.boolean("estimate", false);
   object.finish();
@@ -51,8 +55,9 @@ Material read_material(const Value& value) {
 
 Material find_material(const std::string& name, const std::string& pointer,
                        const Definitions& definitions) {
-  if (const std::optional<Definition> found = definitions.find("material", name))
+  if (const std::optional<Definition> found = definitions.find("material", name)) {
     return read_material(Value(found->document, pointer));
+  }
   const std::vector<std::string> like = nearest(name, definitions.names("material"));
   std::string exists = like.empty() ? "it has no materials" : "it has";
   for (const std::string& other : like) exists += " \"" + shortened(other) + "\"";

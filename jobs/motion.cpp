@@ -56,8 +56,9 @@ void append_move(const path::Move& move, std::vector<double>& cells) {
 Array points_array(std::string pointer, const std::vector<Eigen::Vector3d>& points) {
   Array array{std::move(pointer), {points.size(), 3}, {}};
   array.values.reserve(3 * points.size());
-  for (const Eigen::Vector3d& p : points)
+  for (const Eigen::Vector3d& p : points) {
     array.values.insert(array.values.end(), {p.x(), p.y(), p.z()});
+  }
   return array;
 }
 

@@ -33,10 +33,12 @@ std::string base64(const std::string& bytes) {
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
     std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < 3; ++k) {
       group = (group << 8) | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k)
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
       text += k <= count ? digits[(group >> (18 - 6 * k)) & 63U] : '=';
+    }
   }
   return text;
 }
@@ -72,19 +74,21 @@ Json hole_document(const geometry::Workpiece& workpiece, const geometry::Hole& h
 std::string page(const Json& data) {
   const std::string_view whole = viewer::page();
   const std::size_t at = whole.find(viewer::page_marker);
-  if (at == std::string_view::npos)
+  if (at == std::string_view::npos) {
     refuse({.code = ErrorCode::Unsupported,
             .field = "",
             .value = "html",
             .limit = "another format",
             .message = "this program was built without the viewer (RIDGELINE_VIEWER=OFF): it has "
                        "no format \"html\""});
+  }
   std::string text(whole.substr(0, at));
   for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace)) {
-    if (c == '<')
+    if (c == '<') {
       text += "\\u003c";  // no text can close the script element
-    else
+    } else {
       text += c;
+    }
   }
   text += whole.substr(at + viewer::page_marker.size());
   return text;
@@ -93,9 +97,11 @@ std::string page(const Json& data) {
 Json page_points(const std::vector<Vector3d>& points) {
   std::string bytes;
   bytes.reserve(12 * points.size());
-  for (const Vector3d& p : points)
-    for (const double v : {p.x(), p.y(), p.z()})
+  for (const Vector3d& p : points) {
+    for (const double v : {p.x(), p.y(), p.z()}) {
       append(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(v)), 4);
+    }
+  }
   return {{"f32", base64(bytes)}};
 }
 
@@ -123,10 +129,11 @@ Json document_of(const std::vector<PageChart>& charts) {
   Json list = Json::array();
   for (const PageChart& chart : charts) {
     Json series = Json::array();
-    for (const PageSeries& each : chart.series)
+    for (const PageSeries& each : chart.series) {
       series.push_back({{"name", each.name},
                         {"style", styles.at(static_cast<std::size_t>(each.style))},
                         {"values", page_values(each.values)}});
+    }
     list.push_back({{"title", chart.title},
                     {"unit", chart.unit},
                     {"scale", chart.scale},
@@ -145,8 +152,9 @@ Json page_axis(const char* title, const std::vector<double>& values,
 PageMotion page_motion(const path::Motion& motion) {
   PageMotion drawn;
   for (const auto kind : {path::MoveKind::Rapid, path::MoveKind::Approach, path::MoveKind::LeadIn,
-                          path::MoveKind::Cut, path::MoveKind::LeadOut, path::MoveKind::Retract})
+                          path::MoveKind::Cut, path::MoveKind::LeadOut, path::MoveKind::Retract}) {
     drawn.names.emplace_back(path::name(kind));
+  }
   if (motion.moves.empty()) return drawn;
   drawn.start = motion.moves.front().to;  // how the control comes to the first is not known
   Vector3d from = drawn.start;
@@ -165,7 +173,7 @@ PageMotion page_motion(const path::Motion& motion) {
 }
 
 Json document_of(const PageMotion& motion) {
-  if (motion.to.size() > most_pieces)
+  if (motion.to.size() > most_pieces) {
     refuse({.code = ErrorCode::Unsupported,
             .field = "",
             .value = std::to_string(motion.to.size()) + " pieces of path",
@@ -173,6 +181,7 @@ Json document_of(const PageMotion& motion) {
             .message = "the path has " + std::to_string(motion.to.size()) +
                        " pieces, too many for a page in the browser (at most " +
                        std::to_string(most_pieces) + "): ask for csv or json"});
+  }
   return {{"names", motion.names},
           {"kinds", motion.kinds},
           {"start", array_of(motion.start)},
@@ -184,8 +193,9 @@ Json document_of(const PageMotion& motion) {
 Json page_part(const geometry::Workpiece& workpiece) {
   const bool is_block = workpiece.shape == geometry::BodyShape::ManifoldBlock;
   Json holes = Json::array();
-  for (const geometry::Hole& hole : workpiece.holes)
+  for (const geometry::Hole& hole : workpiece.holes) {
     holes.push_back(hole_document(workpiece, hole));
+  }
   Json part = {{"shape", is_block ? "manifold_block" : "thick_walled_cylinder"},
                {"position", array_of(workpiece.position)},
                {"inner_radius", workpiece.inner_radius},

@@ -85,9 +85,10 @@ private:
   /// JSON pointer of the value being read.
   std::string pointer() const {
     std::string path;
-    for (const Level& level : levels_)
+    for (const Level& level : levels_) {
       path += "/" + (level.value->is_object() ? pointer_token(shortened(level.key))
                                               : std::to_string(level.value->size()));
+    }
     return path;
   }
 
@@ -106,12 +107,13 @@ private:
     return true;
   }
   bool open(Json&& value) {
-    if (levels_.size() == max_document_levels)
+    if (levels_.size() == max_document_levels) {
       refuse({.field = pointer(),
               .value = "deeper",
               .limit = "at most " + std::to_string(max_document_levels) + " levels deep",
               .message = "the document is nested more than " + std::to_string(max_document_levels) +
                          " levels deep"});
+    }
     Json* placed = place(std::move(value));
     levels_.push_back({placed, {}});
     return true;
@@ -129,9 +131,10 @@ private:
 }  // namespace
 
 nlohmann::json parse(std::string_view text) {
-  if (text.size() > max_document_bytes)
+  if (text.size() > max_document_bytes) {
     refuse({.value = std::to_string(text.size()) + " bytes",
             .limit = "at most " + std::to_string(max_document_bytes) + " bytes"});
+  }
   Builder builder(text);
   Json::sax_parse(text.begin(), text.end(), &builder);
   return builder.take();

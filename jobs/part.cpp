@@ -74,8 +74,9 @@ Json axis_document(const Value& axis) {
   if (axis.json().is_array()) return {{"direction", vector_document(axis.direction())}};
   Object object(axis);
   Json document = {{"direction", vector_document(object.required("direction").direction())}};
-  if (const auto point = object.optional("point"))
+  if (const auto point = object.optional("point")) {
     document["point"] = vector_document(point->vector3(section_range));
+  }
   object.finish();
   return document;
 }

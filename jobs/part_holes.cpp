@@ -65,8 +65,9 @@ struct Stretch {
 std::optional<Stretch> cylinder_at(const std::vector<Segment>& limit, double z0, double z1) {
   for (const Segment& row : limit) {
     if (row.arc || std::abs(row.start.r - row.end.r) > same_length) continue;
-    if (row.start.z <= z0 + same_length && row.end.z >= z1 - same_length)
+    if (row.start.z <= z0 + same_length && row.end.z >= z1 - same_length) {
       return Stretch{row.start.r, row.start.z, row.end.z};
+    }
   }
   return std::nullopt;
 }
@@ -151,13 +152,15 @@ public:
   Json run() {
     for (const units::Hole& hole : part_.product.holes) add(mouth_of(hole));
     for (const units::MilledFace& face : part_.product.faces) {
-      if (const std::optional<Mouth> mouth = mouth_of(face, inner_))
+      if (const std::optional<Mouth> mouth = mouth_of(face, inner_)) {
         add(*mouth);
-      else
+      } else {
         leave(face.name, face.form, "its edge is none of a hole: no round corners in a round wall");
+      }
     }
-    for (const units::Remainder& rest : part_.product.remainders)
+    for (const units::Remainder& rest : part_.product.remainders) {
       leave(rest.name, "unexplained", rest.why);
+    }
     return {{"job", "units"},
             {"status", "ok"},
             {"operation", "holes"},
@@ -173,8 +176,9 @@ private:
   }
 
   void add(const Mouth& mouth) {
-    if (std::abs(mouth.out.z()) > 1 - across_axis)
+    if (std::abs(mouth.out.z()) > 1 - across_axis) {
       return leave(mouth.name, mouth.kind, "it opens in a face across the axis: its edge is plane");
+    }
     const double reach = mouth.half_length() / std::sqrt(1 - mouth.out.z() * mouth.out.z());
     const double rise = mouth.out.z() / std::sqrt(1 - mouth.out.z() * mouth.out.z());
     const Vector3d& p = mouth.point;
@@ -190,12 +194,14 @@ private:
       if (inner && std::abs(z_in(inner->r) - z) < same_length) break;
       inner.reset();
     }
-    if (!inner || inner->r < same_length)
+    if (!inner || inner->r < same_length) {
       return leave(mouth.name, mouth.kind,
                    inner_.empty() || box_is_solid() ? "the part has no bore there"
                                                     : "it ends over a step of the bore");
-    if (!mouth.is_through)
+    }
+    if (!mouth.is_through) {
       return leave(mouth.name, mouth.kind, "it is blind: it does not reach the bore");
+    }
     place(mouth, *inner, *outer);
   }
 
@@ -209,9 +215,11 @@ private:
   Json& workpiece_of(const Stretch& inner, const Stretch& outer) {
     const double z0 = std::max(inner.z0, outer.z0);
     const double z1 = std::min(inner.z1, outer.z1);
-    for (std::size_t i = 0; i < spans_.size(); ++i)
-      if (std::abs(spans_[i].z0 - z0) < same_length && std::abs(spans_[i].z1 - z1) < same_length)
+    for (std::size_t i = 0; i < spans_.size(); ++i) {
+      if (std::abs(spans_[i].z0 - z0) < same_length && std::abs(spans_[i].z1 - z1) < same_length) {
         return workpieces_[i];
+      }
+    }
     spans_.push_back({inner.r, z0, z1});
     const std::string suffix = spans_.size() == 1 ? "" : "-" + std::to_string(spans_.size());
     workpieces_.push_back({{"kind", "workpiece"},
@@ -245,10 +253,11 @@ private:
     }
     const std::string name = workpiece["name"];
     edge(name, mouth, "inner");
-    if (mouth.is_outer_edge_left)
+    if (mouth.is_outer_edge_left) {
       edge(name, mouth, "outer");
-    else
+    } else {
       leave(mouth.name + " outer", mouth.kind, "its outer edge is countersunk already");
+    }
   }
 
   void edge(const std::string& workpiece, const Mouth& mouth, const char* which) {

@@ -35,8 +35,9 @@ Json hole_of(const Json& mouth) {
   if (kind != "slot" && kind != "rounded_rectangle") return mouth.value("why", kind);
   const double skew = mouth.at("skew");
   const bool is_along = skew < square;
-  if (!is_along && skew < 90 - square)
+  if (!is_along && skew < 90 - square) {
     return "it lies askew by " + text(skew) + " degrees to the wall's axis";
+  }
   const double r = mouth.at("radius");
   const double longer = mouth.at("length").get<double>() - 2 * r;
   const double shorter = std::max(0.0, mouth.at("width").get<double>() - 2 * r);
@@ -51,8 +52,9 @@ Json hole_of(const Json& mouth) {
 }
 
 bool is_same_wall(const Json& a, const Json& b) {
-  if (std::abs(a.at("radius").get<double>() - b.at("radius").get<double>()) > part::same_place)
+  if (std::abs(a.at("radius").get<double>() - b.at("radius").get<double>()) > part::same_place) {
     return false;
+  }
   return part::is_same_axis({vector(a.at("point")), vector(a.at("axis"))},
                             {vector(b.at("point")), vector(b.at("axis"))});
 }

@@ -22,8 +22,9 @@ bool asks_for_correction(Object& job) {
 }
 
 Answer predict_along(Object& job, const Value& along, const Request& request) {
-  if (request.format == "nc" && !asks_for_correction(job))
+  if (request.format == "nc" && !asks_for_correction(job)) {
     refuse_program("the program of a prediction is the corrected one: ask for it by \"correct\"");
+  }
   const Value kind = Object(along).required("job");
   if (kind.is_word("chamfer")) return predict_chamfer(job, along, request);
   if (kind.is_word("program")) return predict_nc(job, along, request);
@@ -36,11 +37,13 @@ Answer predict_along(Object& job, const Value& along, const Request& request) {
 Answer predict(const Request& request) {
   Object job{Value(request.document)};
   job.required("job");
-  if (const std::optional<Value> along = job.optional("along"))
+  if (const std::optional<Value> along = job.optional("along")) {
     return predict_along(job, *along, request);
-  if (request.format == "nc")
+  }
+  if (request.format == "nc") {
     refuse_program(
         "one engagement has no program: ask for json, csv, svg or html, or predict along a path");
+  }
   if (job.has("depths")) return predict_lobes(job, request);
   if (job.has("speeds_rpm")) return predict_sweep(job, request);
   return predict_engagement(job, request);

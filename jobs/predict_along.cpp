@@ -37,8 +37,9 @@ cutting::CorrectOptions read_correct(const Value& value) {
 }
 
 Material read_material_of(Object& job, const AlongSource& source, const Definitions& definitions) {
-  if (const std::optional<Value> material = job.optional("material"))
+  if (const std::optional<Value> material = job.optional("material")) {
     return resolve_material(*material, definitions);
+  }
   if (source.material) return find_material(*source.material, source.material_at, definitions);
   job.refuse("material",
              "a name of the library or a coefficient set: nothing says what is being cut");
@@ -50,8 +51,9 @@ void read_options_of(Object& job, AlongJob& out) {
   engagement.options.max_loops = along_loops;
   engagement.options.mixing = cutting::Mixing::Secants;
   engagement.time.max_revolutions = along_revolutions;
-  if (const std::optional<Value> options = job.optional("options"))
+  if (const std::optional<Value> options = job.optional("options")) {
     read_options(*options, engagement);
+  }
   out.options.iterate = engagement.options;
   out.options.time = engagement.time;
   out.options.fall_back = engagement.fall_back;
@@ -68,8 +70,9 @@ void read_options_of(Object& job, AlongJob& out) {
 int usual_samples(int teeth) {
   constexpr int wanted = 1024;
   const auto is_smooth = [](int n) {
-    for (const int prime : {2, 3, 5})
+    for (const int prime : {2, 3, 5}) {
       while (n % prime == 0) n /= prime;
+    }
     return n == 1;
   };
   int pitch = (wanted + teeth - 1) / teeth;
@@ -88,18 +91,20 @@ void read_course(Object& job, const AlongSource& source, AlongJob& out) {
   out.course.spindle = source.tool.spindle;
   constexpr double most_places = 1 << 22;  // what a chip search may look at
   out.course.samples = job.integer("N", 16, 65536, usual_samples(source.tool.flutes));
-  if (static_cast<double>(out.course.samples) * out.tool.cutter.elements > most_places)
+  if (static_cast<double>(out.course.samples) * out.tool.cutter.elements > most_places) {
     job.refuse("N",
                "so small that N times the elements of a tooth is at most " + text(most_places));
+  }
   out.course.earlier_teeth = job.integer("npast", 1, 16, 1);
   if (job.boolean("stock_limit", false)) out.course.chip_end = cutting::ChipEnd::StockLimited;
 }
 
 void read_uncertainty_of(Object& job, AlongJob& out) {
-  if (const std::optional<Value> given = job.optional("uncertainty"))
+  if (const std::optional<Value> given = job.optional("uncertainty")) {
     out.options.uncertainty = read_uncertainty(*given);
-  else
+  } else {
     out.options.uncertainty = out.material.uncertainty;
+  }
 }
 
 }  // namespace
@@ -114,35 +119,40 @@ AlongJob read_along(Object& job, const AlongSource& source, const Definitions& d
     out.rpm = job.number("speed_rpm", speed_range);
   } else {
     out.rpm = *source.rpm;
-    if (!contains(speed_range, out.rpm))
+    if (!contains(speed_range, out.rpm)) {
       job.refuse("speed_rpm", "given where the path has no spindle speed");
+    }
   }
   if (const std::optional<Value> correct = job.optional("correct")) {
-    if (!correct->json().is_boolean())
+    if (!correct->json().is_boolean()) {
       out.correct = read_correct(*correct);
-    else if (correct->boolean())
+    } else if (correct->boolean()) {
       out.correct.emplace();
+    }
   }
   out.warnings = out.tool.warnings;
-  if (out.material.is_estimate)
+  if (out.material.is_estimate) {
     out.warnings.push_back("the cutting coefficients of " + shortened(out.material.name) +
                            " are an estimate");
+  }
   return out;
 }
 
 Progress part_of(const Progress& progress, double from, double to) {
   Progress part;
   part.stop = progress.stop;
-  if (progress.report)
+  if (progress.report) {
     part.report = [&progress, from, to](double fraction, std::string_view stage) {
       progress.report(from + fraction * (to - from), stage);
     };
+  }
   return part;
 }
 
 void choose_tests(AlongJob& job, std::size_t stations) {
-  if (job.options.stability_every < 1)
+  if (job.options.stability_every < 1) {
     job.options.stability_every = static_cast<int>((stations + most_tests - 1) / most_tests);
+  }
 }
 
 void refuse_chatter(const std::vector<cutting::Station>& stations,

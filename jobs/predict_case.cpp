@@ -85,12 +85,14 @@ cutting::Cut read_cut(Object& object) {
   cutting::Cut cut;
   cut.cutter = read_cutter(object.required("tool"));
   cut.samples = object.integer("N", 8, most_samples, 1024);
-  if (static_cast<double>(cut.samples) * cut.cutter.elements > most_places)
+  if (static_cast<double>(cut.samples) * cut.cutter.elements > most_places) {
     object.refuse("N", "so small that N times nq is at most " + text(most_places));
+  }
   cut.feed = object.number("feed_per_tooth", between(1e-6, cut.cutter.r / 2, "mm"));
   cut.phi = radians(object.number("phi_deg", between(-90, 90, "degrees"), 0));
-  if (cut.cutter.kind == CutterKind::Square && cut.phi != 0)
+  if (cut.cutter.kind == CutterKind::Square && cut.phi != 0) {
     object.refuse("phi_deg", "0 for a square mill");
+  }
   cut.coefficients = read_coefficients(object.required("coef"));
   if (object.boolean("stock_limit", false)) cut.chip_end = cutting::ChipEnd::StockLimited;
   cut.earlier_teeth = object.integer("npast", 1, 16, 1);
@@ -127,12 +129,14 @@ cutting::MeasuredResponse read_measured_response(const Value& value) {
 }
 
 void read_teeth(Object& object, cutting::Cutter& cutter) {
-  if (const std::optional<Value> pitch = object.optional("pitch_deg"))
+  if (const std::optional<Value> pitch = object.optional("pitch_deg")) {
     cutter.pitch = read_pitch(*pitch, cutter.pitch.size());
+  }
   if (const std::optional<Value> runout = object.optional("runout_mm")) {
     cutter.runout = runout->numbers(between(-cutter.r / 4, cutter.r / 4, "mm"));
-    if (cutter.runout.size() != cutter.pitch.size())
+    if (cutter.runout.size() != cutter.pitch.size()) {
       runout->refuse("one number for each tooth, " + std::to_string(cutter.pitch.size()));
+    }
   }
   cutter.offset = object.number("offset_mm", between(0, cutter.r / 4, "mm"), 0);
   cutter.offset_angle = radians(object.number("offset_deg", between(-360, 360, "degrees"), 0));
@@ -155,8 +159,9 @@ void read_options(const Value& value, cutting::Engagement& engagement) {
       {{"averages", Mixing::Averages}, {"secants", Mixing::Secants}}};
   Object object(value);
   cutting::IterateOptions& o = engagement.options;
-  for (const char* key : {"beta", "stall", "adapt", "weights"})  // these say how averages change
+  for (const char* key : {"beta", "stall", "adapt", "weights"}) {  // these say how averages change
     if (object.has(key)) o.mixing = Mixing::Averages;
+  }
   o.mixing = object.choice("mixing", mixings, o.mixing);
   o.alpha = object.number("alpha", inside(0, 1, ""), o.alpha);
   o.beta = object.number("beta", between(1, 1e300, ""), o.beta);
@@ -167,8 +172,9 @@ void read_options(const Value& value, cutting::Engagement& engagement) {
     o.weights = weights->numbers(between(0, 1e6, ""));
     if (o.weights.empty()) weights->refuse("at least one weight");
   }
-  if (const std::optional<Value> kappa = object.optional("kappa"); kappa && !kappa->is_null())
+  if (const std::optional<Value> kappa = object.optional("kappa"); kappa && !kappa->is_null()) {
     o.kappa = kappa->number(inside(0, 1e6, ""));
+  }
   engagement.time.max_revolutions =
       object.integer("max_revolutions", 2, 10'000, engagement.time.max_revolutions);
   engagement.time.tolerance =

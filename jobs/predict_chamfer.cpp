@@ -31,8 +31,9 @@ struct ChamferPath {
 std::vector<Eigen::Vector3d> loop_directions(const std::vector<Eigen::Vector3d>& centres) {
   std::vector<Eigen::Vector3d> out;
   const std::size_t count = centres.size();
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count; ++i) {
     out.push_back((centres[(i + 1) % count] - centres[(i + count - 1) % count]).normalized());
+  }
   return out;
 }
 
@@ -69,9 +70,10 @@ ChamferPath path_of(const ChamferJob& job, const chamfer::Result& result, Pass p
   if (passes.empty()) throw Error(ErrorCode::Internal, "a chamfer without a cut");
   path.cut = passes.back();
   std::vector<Eigen::Vector3d> earlier;
-  if (passes.size() > 1)
+  if (passes.size() > 1) {
     earlier =
         centres_of(result.motion, passes[passes.size() - 2], to_centre(job, result.tool_axis));
+  }
   const double teeth_per_second = S * cutting::teeth(cutter);
   const std::vector<Eigen::Vector3d> directions = loop_directions(result.centres);
   for (std::size_t i = 0; i < result.centres.size(); ++i) {
@@ -83,10 +85,11 @@ ChamferPath path_of(const ChamferJob& job, const chamfer::Result& result, Pass p
                        directions[i],
                        move.feed / teeth_per_second,
                        {}};
-    if (!(point.feed >= 1e-6 && point.feed <= cutter.r / 2))
+    if (!(point.feed >= 1e-6 && point.feed <= cutter.r / 2)) {
       refuse({.field = "/along/feed",
               .value = text(point.feed) + " mm a tooth",
               .limit = "1e-6 mm to half the radius a tooth at this spindle_speed"});
+    }
     if (!earlier.empty()) point.earlier_centre = nearest_on(earlier, point.centre);
     path.stations.push_back(cutting::chamfer_station(path.edge, point, cutter.r));
     path.points.push_back(std::move(point));
@@ -101,8 +104,9 @@ ChamferPath over(ChamferPath path, const std::vector<cutting::StationError>& err
                  double radius) {
   for (std::size_t i = 0; i < path.points.size(); ++i) {
     path.points[i].earlier_centre.reset();
-    if (errors[i].e)
+    if (errors[i].e) {
       path.points[i].earlier_centre = path.points[i].centre + *errors[i].e * path.stations[i].n;
+    }
     path.stations[i] = cutting::chamfer_station(path.edge, path.points[i], radius);
   }
   return path;
@@ -176,8 +180,9 @@ PredictedPass spring_pass(const ChamferPath& path, const AlongJob& along, const 
 path::Motion shifted_pass(const ChamferPath& path, const std::vector<Eigen::Vector3d>& position,
                           const std::vector<cutting::StationError>& after) {
   Shifts shifts{position, {}, true};
-  for (std::size_t i = 0; i < path.stations.size(); ++i)
+  for (std::size_t i = 0; i < path.stations.size(); ++i) {
     shifts.shift.emplace_back(-after[i].shift * path.stations[i].n);
+  }
   return shifted(path.result.motion, path.cut, shifts, path.result.tool_axis);
 }
 
@@ -264,8 +269,9 @@ Answer predict_chamfer(Object& job, const Value& along, const Request& request) 
   predicted.parameter = path.result.parameter;
   predicted.stations = path.stations;
   const Eigen::Vector3d offset = to_centre(chamfer_job, path.result.tool_axis);
-  for (const Eigen::Vector3d& centre : path.result.centres)
+  for (const Eigen::Vector3d& centre : path.result.centres) {
     predicted.position.push_back(centre - offset);
+  }
   predicted.result = std::move(result);
   if (finish) predicted.finish = finish->result.after;
   predicted.width = widths(path, predicted.result.before);
@@ -279,10 +285,11 @@ Answer predict_chamfer(Object& job, const Value& along, const Request& request) 
   Answer answer = path_answer(read, predicted);
   if (request.format == "csv") answer.text = path_csv(predicted);
   if (request.format == "svg") answer.text = path_drawing(read, predicted);
-  if (request.format == "html")
+  if (request.format == "html") {
     answer.text = path_page(
         read, predicted, answer.document,
         chamfer_scene(chamfer_job, path.result, subject_of(chamfer_job, path.result.tool_axis)));
+  }
   if (request.format == "nc") answer.text = nc::write(program.value());
   return answer;
 }

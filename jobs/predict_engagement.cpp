@@ -25,11 +25,13 @@ cutting::Deflections warm_start(const Value& value, const Progress& progress) {
   cutting::Engagement engagement;
   read_case(before.required("case"), engagement);
   engagement.S = before.number("speed_rpm", speed_range) / 60;
-  if (const std::optional<Value> options = before.optional("options"))
+  if (const std::optional<Value> options = before.optional("options")) {
     read_options(*options, engagement);
+  }
   cutting::Deflections start;
-  if (const std::optional<Value> warm = before.optional("warm_from"))
+  if (const std::optional<Value> warm = before.optional("warm_from")) {
     start = warm_start(*warm, progress);
+  }
   before.finish();
   return cutting::predict(engagement, Method::Iterate, start, progress).prediction.D;
 }
@@ -114,8 +116,9 @@ std::string csv_of(const cutting::Prediction& p) {
   const auto N = static_cast<double>(p.F.size());
   for (std::size_t i = 0; i < p.F.size(); ++i) {
     out += text(360.0 * static_cast<double>(i) / N);
-    for (const double number : {p.F[i].x(), p.F[i].y(), p.F[i].z(), p.D[i].x(), p.D[i].y()})
+    for (const double number : {p.F[i].x(), p.F[i].y(), p.F[i].z(), p.D[i].x(), p.D[i].y()}) {
       out += "," + text(number);
+    }
     out += "\n";
   }
   return out;
@@ -130,15 +133,17 @@ std::string drawing_of(const cutting::Prediction& p, double rpm) {
   const double step = 360.0 / static_cast<double>(p.F.size());
   for (std::size_t c = 0; c < 3; ++c) {
     Series one{force_names[c], styles[c], {}};
-    for (std::size_t i = 0; i < p.F.size(); ++i)
+    for (std::size_t i = 0; i < p.F.size(); ++i) {
       one.points.emplace_back(step * static_cast<double>(i), p.F[i][static_cast<Eigen::Index>(c)]);
+    }
     force.series.push_back(std::move(one));
   }
   for (std::size_t c = 0; c < 2; ++c) {
     Series one{deflection_names[c], styles[c], {}};
-    for (std::size_t i = 0; i < p.D.size(); ++i)
+    for (std::size_t i = 0; i < p.D.size(); ++i) {
       one.points.emplace_back(step * static_cast<double>(i),
                               1e3 * p.D[i][static_cast<Eigen::Index>(c)]);
+    }
     deflection.series.push_back(std::move(one));
   }
   const std::string e = p.e ? fmt::format("error {:.2f} um", *p.e * 1e3) : "no cut";
@@ -154,8 +159,9 @@ std::string drawing_of(const cutting::Prediction& p, double rpm) {
 PredictJob read_predict_job(Object& job) {
   PredictJob out;
   read_case(job.required("case"), out.engagement);
-  if (const std::optional<Value> options = job.optional("options"))
+  if (const std::optional<Value> options = job.optional("options")) {
     read_options(*options, out.engagement);
+  }
   out.method = read_method(job);
   out.test = job.choice("stability", tests, StabilityTest::TimeDomain);
   return out;
@@ -166,8 +172,9 @@ Json stability_document(const PredictJob& job, std::vector<std::string>& warning
   if (job.test == StabilityTest::None) return nullptr;
   const auto& [cut, compliance, S, options, time, fall_back] = job.engagement;
   try {
-    if (cutting::is_measured(compliance))
+    if (cutting::is_measured(compliance)) {
       warnings.emplace_back("stability is that of the modes fitted to the measured response");
+    }
     return name(cutting::stability(cut, cutting::with_modes(compliance), S, progress));
   } catch (const Error& error) {
     if (error.code() != ErrorCode::NotConverged) throw;
@@ -199,8 +206,9 @@ Answer predict_engagement(Object& job, const Request& request) {
   answer.document["stability"] = stability_document(read, warnings, request.progress);
   answer.document["solve_seconds"] = seconds;
   answer.document["warnings"] = warnings;
-  if (request.format == "html")
+  if (request.format == "html") {
     answer.text = engagement_page(predicted.prediction, read.engagement.cut.n, answer.document);
+  }
   answer.arrays.push_back(samples_array<3>("/F", predicted.prediction.F));
   answer.arrays.push_back(samples_array<2>("/D", predicted.prediction.D));
   return answer;

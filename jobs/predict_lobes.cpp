@@ -31,9 +31,10 @@ Depths read_depths(const Value& value, const Json& engagement) {
   const bool square = engagement.contains("ap");
   constexpr Choices<const char*, 3> keys{{{"c", "c"}, {"a", "a"}, {"ap", "ap"}}};
   depths.key = object.choice("of", keys, square ? "ap" : "c");
-  if (!engagement.contains(depths.key))
+  if (!engagement.contains(depths.key)) {
     object.refuse(
         "of", "a member of /case/engagement: \"ap\" or \"a\" of a square mill, \"c\" of a ball");
+  }
   depths.range.from = object.number("from", between(1e-4, 1e3, "mm"));
   depths.range.to = object.number("to", above(depths.range.from, 1e3, "mm"));
   depths.range.steps = object.integer("steps", 1, 1000, 20);
@@ -54,8 +55,9 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 std::string csv_of(const std::vector<double>& speeds, const std::vector<double>& limits) {
   std::string out = "speed_rpm,depth_limit_mm\n";
-  for (std::size_t i = 0; i < speeds.size(); ++i)
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
     out += text(speeds[i]) + "," + (std::isnan(limits[i]) ? "" : text(limits[i])) + "\n";
+  }
   return out;
 }
 

@@ -65,8 +65,9 @@ path::Motion shifted(const path::Motion& motion, const CutRange& cut, const Shif
   const auto point_before = [&](std::size_t i) {
     return i == 0 ? motion.start : motion.moves[i - 1].to;
   };
-  for (std::size_t i = cut.from; i < cut.to; ++i)
+  for (std::size_t i = cut.from; i < cut.to; ++i) {
     move_by(out.moves[i], shift_at(shifts, motion.moves[i].to));
+  }
   const Eigen::Vector3d first = shift_at(shifts, point_before(cut.from));
   for (std::size_t i = lead_of(motion, cut); i < cut.from; ++i) move_by(out.moves[i], first);
   const Eigen::Vector3d last = shift_at(shifts, motion.moves[cut.to - 1].to);

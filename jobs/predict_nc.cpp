@@ -42,11 +42,12 @@ void append(const macro::Result& result, const macro::Move& move, Vector3d& at,
   if (move.kind == macro::MoveKind::Arc) {
     const macro::ArcDetail& arc = macro::arc_of(result, move);
     out.arc = path::Arc{arc.centre, arc.plane, arc.sense, Eigen::Matrix3d::Identity()};
-    if (arc.turns > 0)
+    if (arc.turns > 0) {
       refuse({.code = ErrorCode::Unsupported,
               .field = "/along",
               .value = std::to_string(arc.turns) + " turns in one block",
               .limit = "arcs of at most a turn"});
+    }
   }
   at = move.to;
   motion.moves.push_back(std::move(out));
@@ -110,23 +111,26 @@ Answer predict_nc(Object& job, const Value& along, const Request& request) {
   WorkPath work;
   work.kind = "program";
   work.normal = bottom_normal;
-  if (const std::optional<Value> normal = object.optional("normal"))
+  if (const std::optional<Value> normal = object.optional("normal")) {
     work.normal = [n = normal->direction()](const Vector3d&) { return n; };
+  }
   const nc::Reading reading = nc::read(program);
   work.program = program_of(reading, number);
   if (reading.tool_axis) work.tool_axis = reading.tool_axis->normalized();
   if (const std::optional<Value> given = object.optional("tool_axis")) {
     const Vector3d axis = given->direction();
-    if (reading.tool_axis && !axis.isApprox(work.tool_axis, same_axis))
+    if (reading.tool_axis && !axis.isApprox(work.tool_axis, same_axis)) {
       given->refuse("the tool axis of the program's plane, or left out");
+    }
     work.tool_axis = axis;
     if (!reading.tool_axis) work.program.tilted = nc::TiltedOutput::WorkFrame;
   }
   constexpr double most_tilt = 1e-6;  // sine of the axis above the level
-  if (!(work.tool_axis.z() > most_tilt))
+  if (!(work.tool_axis.z() > most_tilt)) {
     refuse({.code = ErrorCode::Unsupported,
             .field = "/along/program",
             .limit = "a tool that comes from above: the stock is a height map"});
+  }
   work.motion = reading.motion;
   work.rpm = reading.spindle_speed;
   return predict_work(job, object, std::move(work), resolve_path_tool(job, request.definitions),
@@ -151,16 +155,18 @@ Answer predict_cycle(Object& job, const Value& along, const Request& request) {
   const ResolvedTool tool = resolve_path_tool(job, request.definitions);
   const double radius = tool::cutting_radius(tool.tool);
   constexpr double same = 1e-6;  // mm
-  if (std::abs(cycle.r - cycle.D / 2) > same || std::abs(cycle.r - radius) > same)
+  if (std::abs(cycle.r - cycle.D / 2) > same || std::abs(cycle.r - radius) > same) {
     refuse({.code = ErrorCode::Unsupported,
             .field = "/along/params/r",
             .value = text(cycle.r) + " mm",
             .limit = "the tool's radius " + text(radius) + " mm and D/2: a ball"});
+  }
   const macro::CycleResult result = macro::solve(cycle, part_of(request.progress, 0, 0.05));
-  if (result.points.empty())
+  if (result.points.empty()) {
     refuse({.code = ErrorCode::Unsupported,
             .field = "/along/family",
             .limit = "a family whose stations have contact points and normals"});
+  }
   work.motion = motion_of(result.motion);
   work.program.spindle_speed = work.rpm.value_or(0);
   work.normal = SectionNormals(cycle, result, radius);

@@ -140,8 +140,9 @@ std::string sweep_page(const Json& document) {
 std::string lobes_page(const Values& speeds, const Values& limits, const Json& document) {
   const auto deepest = document.at("deepest_tried").get<double>();
   Values none(limits.size(), gap);
-  for (std::size_t i = 0; i < limits.size(); ++i)
+  for (std::size_t i = 0; i < limits.size(); ++i) {
     if (std::isnan(limits[i])) none[i] = deepest;
+  }
   Json data = page_data("Stability lobes",
                         fmt::format("depth \"{}\" at which a deviation from the steady cut begins "
                                     "to grow, up to {:g} mm",
@@ -149,8 +150,9 @@ std::string lobes_page(const Values& speeds, const Values& limits, const Json& d
                         document);
   data["along"] = page_axis("spindle speed [rev/min]", speeds);
   std::vector<PageSeries> series{{"chatters above", limits}};
-  if (std::ranges::any_of(none, [](double v) { return std::isfinite(v); }))
+  if (std::ranges::any_of(none, [](double v) { return std::isfinite(v); })) {
     series.push_back({"stable to the deepest tried", none, Style::Dots});
+  }
   data["charts"] =
       document_of(std::vector<PageChart>{{"Depth of cut where chatter begins", "mm", series}});
   return page(data);
@@ -169,8 +171,9 @@ PageMotion motion_of(const AlongJob& job, const PredictedPath& path) {
     drawn.feeds.push_back(cuts ? path.stations[station].feed * rate : 0);
     drawn.moves.push_back(station);
   };
-  for (std::size_t i = 1; i < path.position.size(); ++i)
+  for (std::size_t i = 1; i < path.position.size(); ++i) {
     add(i, !std::ranges::binary_search(path.entries, i));
+  }
   if (path.is_closed) add(0, true);
   return drawn;
 }
@@ -195,8 +198,9 @@ public:
   /// Length along the path, gaps between cuts included.
   Values way() const {
     Values all{0};
-    for (std::size_t i = 1; i < path_.position.size(); ++i)
+    for (std::size_t i = 1; i < path_.position.size(); ++i) {
       all.push_back(all.back() + (path_.position[i] - path_.position[i - 1]).norm());
+    }
     return some(all);
   }
 
@@ -219,8 +223,9 @@ PageChart error_chart(const AlongJob& job, const PredictedPath& path, const Show
                   "\xC2\xB5m",
                   {{"predicted", shown.of(rows, error_of)}},
                   micrometres};
-  if (!path.result.after.empty())
+  if (!path.result.after.empty()) {
     chart.series.push_back({"after correction", shown.of(path.result.after, error_of)});
+  }
   if (job.options.uncertainty) {
     const auto beside = [&](double sign) {
       return shown.of(rows,
@@ -229,18 +234,20 @@ PageChart error_chart(const AlongJob& job, const PredictedPath& path, const Show
     chart.series.push_back({"+ spread", beside(1), Style::Guide});
     chart.series.push_back({"- spread", beside(-1), Style::Guide});
   }
-  if (std::ranges::any_of(rows, chatters))
+  if (std::ranges::any_of(rows, chatters)) {
     chart.series.push_back(
         {"chatters",
          shown.of(rows, [](const StationError& r) { return chatters(r) ? number(r.e) : gap; }),
          Style::Dots});
+  }
   return chart;
 }
 
 PageChart width_chart(const PredictedPath& path, const Shown& shown) {
   PageChart chart{"Width of the chamfer", "mm", {{"predicted", shown.some(path.width)}}};
-  if (!path.width_after.empty())
+  if (!path.width_after.empty()) {
     chart.series.push_back({"after correction", shown.some(path.width_after)});
+  }
   chart.series.push_back(
       {"asked", Values(chart.series.front().values.size(), path.wanted_width), Style::Guide});
   return chart;
@@ -302,7 +309,7 @@ Json report_rows(const Json& document) {
 }  // namespace
 
 std::string path_page(const AlongJob& job, const PredictedPath& path, const Json& document,
-                      Json scene) {
+                      const Json& scene) {
   const Shown shown(path);
   const Values way = shown.way();
   Json data =

@@ -24,6 +24,6 @@ std::string lobes_page(const std::vector<double>& speeds, const std::vector<doub
 /// Error, force, deflection and their kin along a path, and the path in space coloured by them.
 /// `scene`: what stands beside it (part, tool, box, ...).
 std::string path_page(const AlongJob& job, const PredictedPath& path,
-                      const nlohmann::json& document, nlohmann::json scene);
+                      const nlohmann::json& document, const nlohmann::json& scene);
 
 }  // namespace ridgeline::jobs

@@ -61,18 +61,20 @@ Json range_document(const std::vector<double>& values) {
 
 Json stability_document(const std::vector<StationError>& rows) {
   Json out = Json::array();
-  for (const StationError& row : rows)
+  for (const StationError& row : rows) {
     out.push_back(row.stability ? Json(name(*row.stability)) : Json(nullptr));
+  }
   return out;
 }
 
 void add_rows(const std::string& at, const std::vector<StationError>& rows, bool has_spread,
               Answer& answer) {
   answer.arrays.push_back(numbers_array(at + "/error", column(rows, error_of)));
-  if (has_spread)
+  if (has_spread) {
     answer.arrays.push_back(numbers_array(at + "/spread", column(rows, [](const StationError& r) {
                                             return r.e ? r.spread : absent;
                                           })));
+  }
   answer.arrays.push_back(points_array(
       at + "/force", points(rows, [](const StationError& r) { return r.peak_force; })));
   answer.arrays.push_back(points_array(
@@ -121,14 +123,17 @@ void warn(const AlongJob& job, const PredictedPath& path, std::vector<std::strin
     fell_back += row.fell_back ? 1 : 0;
     chatter += row.stability && *row.stability != cutting::Stability::Stable ? 1 : 0;
   }
-  if (fell_back > 0)
+  if (fell_back > 0) {
     warnings.push_back("at " + std::to_string(fell_back) +
                        " stations the iteration did not converge: the time domain answered there");
-  if (chatter > 0)
+  }
+  if (chatter > 0) {
     warnings.push_back("the cut chatters at " + std::to_string(chatter) +
                        " of the stations tested: the error there is not steady");
-  if (job.options.stability == cutting::StabilityTest::None)
+  }
+  if (job.options.stability == cutting::StabilityTest::None) {
     warnings.emplace_back("stability was not tested: the error of a cut that chatters is not this");
+  }
 }
 
 std::vector<double> ways(const PredictedPath& path) {
@@ -145,15 +150,17 @@ std::vector<double> ways(const PredictedPath& path) {
 
 Points centres_after(const PredictedPath& path) {
   Points out;
-  for (std::size_t i = 0; i < path.stations.size(); ++i)
+  for (std::size_t i = 0; i < path.stations.size(); ++i) {
     out.push_back(path.stations[i].centre - path.result.after[i].shift * path.stations[i].n);
+  }
   return out;
 }
 
 Points shifts_of(const PredictedPath& path, const std::vector<StationError>& after) {
   Points out;
-  for (std::size_t i = 0; i < after.size(); ++i)
+  for (std::size_t i = 0; i < after.size(); ++i) {
     out.push_back(-after[i].shift * path.stations[i].n);
+  }
   return out;
 }
 
@@ -167,11 +174,13 @@ void add_corrected(const AlongJob& job, const PredictedPath& path, Answer& answe
   answer.arrays.push_back(points_array("/corrected/position", position));
   answer.arrays.push_back(points_array("/corrected/centre", centres_after(path)));
   answer.arrays.push_back(points_array("/corrected/shift", shift));
-  if (!path.finish.empty())
+  if (!path.finish.empty()) {
     answer.arrays.push_back(points_array("/corrected/finish_shift", shifts_of(path, path.finish)));
+  }
   add_rows("/corrected", rows, job.options.uncertainty.has_value(), answer);
-  if (!path.width_after.empty())
+  if (!path.width_after.empty()) {
     answer.arrays.push_back(numbers_array("/corrected/width", path.width_after));
+  }
 }
 
 }  // namespace
@@ -257,8 +266,9 @@ namespace {
 Series series_of(std::string name, std::string style, const std::vector<double>& x,
                  const std::vector<double>& y, double scale) {
   Series out{std::move(name), std::move(style), {}};
-  for (std::size_t i = 0; i < x.size(); ++i)
+  for (std::size_t i = 0; i < x.size(); ++i) {
     if (!std::isnan(y[i])) out.points.emplace_back(x[i], scale * y[i]);
+  }
   return out;
 }
 
@@ -272,16 +282,18 @@ Chart error_chart(const AlongJob& job, const PredictedPath& path, const std::vec
               {}};
   chart.series.push_back(series_of("predicted", "path", way, column(rows, error_of), 1e3));
   if (job.options.uncertainty) {
-    for (const double sign : {-1.0, 1.0})
+    for (const double sign : {-1.0, 1.0}) {
       chart.series.push_back(series_of(
           sign < 0 ? "spread" : "", "dimension", way,
           column(rows,
                  [sign](const StationError& r) { return r.e ? *r.e + sign * r.spread : absent; }),
           1e3));
+    }
   }
-  if (!path.result.after.empty())
+  if (!path.result.after.empty()) {
     chart.series.push_back(
         series_of("after correction", "ridge", way, column(path.result.after, error_of), 1e3));
+  }
   return chart;
 }
 
@@ -290,8 +302,9 @@ Chart width_chart(const PredictedPath& path, const std::vector<double>& way) {
   chart.series.push_back(series_of("predicted", "path", way, path.width, 1));
   const std::vector<double> wanted(way.size(), path.wanted_width);
   chart.series.push_back(series_of("asked", "axis", way, wanted, 1));
-  if (!path.width_after.empty())
+  if (!path.width_after.empty()) {
     chart.series.push_back(series_of("after correction", "ridge", way, path.width_after, 1));
+  }
   return chart;
 }
 

@@ -59,8 +59,9 @@ std::shared_ptr<const cutting::HeightMap> read_map(const Value& value, cutting::
   const Value heights = object.required("heights");
   map->heights = heights.numbers(coordinate_range);
   const auto columns = static_cast<std::size_t>(map->columns);
-  if (map->heights.size() % columns != 0 || map->heights.size() < 2 * columns)
+  if (map->heights.size() % columns != 0 || map->heights.size() < 2 * columns) {
     heights.refuse("at least two whole rows of " + std::to_string(columns) + " heights");
+  }
   map->rows = static_cast<int>(map->heights.size() / columns);
   stock.map_origin = object.required("at").vector3(coordinate_range);
   object.finish();
@@ -79,8 +80,9 @@ void read_plane(Object& object, cutting::Cut& cut) {
 void read_stock(const Value& value, cutting::Cut& cut) {
   Object object(value);
   cut.n = read_unit(object.required("normal"));
-  if (cut.cutter.kind == cutting::CutterKind::Square)
+  if (cut.cutter.kind == cutting::CutterKind::Square) {
     cut.cutter.height = object.number("ap", between(1e-4, 1e3, "mm"));
+  }
   if (const std::optional<Value> faces = object.optional("faces")) {
     for (const Value& face : faces->array(1, 16)) cut.stock.faces.push_back(read_face(face));
   }
@@ -88,11 +90,13 @@ void read_stock(const Value& value, cutting::Cut& cut) {
   if (const std::optional<Value> map = object.optional("map")) {
     cut.stock.map = read_map(*map, cut.stock);
   }
-  if (object.has("c") || object.has("a") || (cut.stock.faces.empty() && !cut.stock.map))
+  if (object.has("c") || object.has("a") || (cut.stock.faces.empty() && !cut.stock.map)) {
     read_plane(object, cut);
+  }
   if (const std::optional<Value> grooves = object.optional("grooves")) {
-    for (const Value& groove : grooves->array(0, 64))
+    for (const Value& groove : grooves->array(0, 64)) {
       cut.stock.grooves.push_back(read_groove(groove, cut));
+    }
   }
   object.finish();
 }

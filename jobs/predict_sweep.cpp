@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "jobs/in_parallel.hpp"
@@ -119,8 +120,9 @@ Answer answer_of(const std::vector<double>& speeds, const std::vector<AtSpeed>& 
 std::vector<double> read_speeds(const Value& value) {
   if (!value.json().is_object()) {
     std::vector<double> speeds = value.numbers(speed_range);
-    if (speeds.empty() || speeds.size() > most_speeds)
+    if (speeds.empty() || speeds.size() > most_speeds) {
       value.refuse("1 to " + std::to_string(most_speeds) + " speeds");
+    }
     return speeds;
   }
   Object range(value);
@@ -129,10 +131,12 @@ std::vector<double> read_speeds(const Value& value) {
   const double step = range.number("step", above(0, speed_range.max, speed_range.unit));
   range.finish();
   const double count = std::floor((to - from) / step + 1e-9) + 1;
-  if (!(count <= static_cast<double>(most_speeds)))
+  if (!(count <= static_cast<double>(most_speeds))) {
     range.refuse("step",
                  "so large that there are at most " + std::to_string(most_speeds) + " speeds");
+  }
   std::vector<double> speeds;
+  speeds.reserve(static_cast<std::size_t>(std::max(count, 0.0)));
   for (int i = 0; i < static_cast<int>(count); ++i) speeds.push_back(from + i * step);
   return speeds;
 }

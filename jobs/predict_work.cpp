@@ -36,8 +36,9 @@ HeightMap read_stock(const Value& value, double radius) {
     const Vector3d high = max.vector3(coordinate_range);
     if (!((high - low).minCoeff() > 0)) max.refuse("greater than min in X, Y and Z");
     const double cell = object.number("cell", between(1e-3, 10, "mm"), usual);
-    if (!((high.x() - low.x()) / cell * ((high.y() - low.y()) / cell) <= most_nodes))
+    if (!((high.x() - low.x()) / cell * ((high.y() - low.y()) / cell) <= most_nodes)) {
       object.refuse("cell", "so large that the stock has at most 16 million cells");
+    }
     object.finish();
     return cutting::block_map(low, high, cell);
   }
@@ -49,8 +50,9 @@ HeightMap read_stock(const Value& value, double radius) {
   const Value heights = object.required("heights");
   map.heights = heights.numbers(coordinate_range);
   const auto columns = static_cast<std::size_t>(map.columns);
-  if (map.heights.size() % columns != 0 || map.heights.size() < 2 * columns)
+  if (map.heights.size() % columns != 0 || map.heights.size() < 2 * columns) {
     heights.refuse("at least two whole rows of " + std::to_string(columns) + " heights");
+  }
   map.rows = static_cast<int>(map.heights.size() / columns);
   object.finish();
   return map;
@@ -78,10 +80,11 @@ std::vector<Place> places_of(const WorkPath& work, const Vector3d& to_centre, do
     if (length < 1e-9) continue;
     const bool rapid = move.kind == path::MoveKind::Rapid;
     const int parts = rapid ? 1 : static_cast<int>(std::ceil(length / step - 1e-9));
-    if (out.size() + static_cast<std::size_t>(parts) > most_stations)
+    if (out.size() + static_cast<std::size_t>(parts) > most_stations) {
       refuse({.field = "/along/step",
               .value = text(step) + " mm",
               .limit = "so large that the path has at most 1000000 stations"});
+    }
     for (int i = 1; i <= parts; ++i) {
       Place place;
       place.from = at + chord * (static_cast<double>(i - 1) / parts) + to_centre;
@@ -125,8 +128,9 @@ public:
 
   std::shared_ptr<const HeightMap> before(std::size_t i) {
     constexpr double lag = 0.25;  // of the radius
-    for (; next_ < i && places_[i].way - places_[next_].way >= lag * radius_; ++next_)
+    for (; next_ < i && places_[i].way - places_[next_].way >= lag * radius_; ++next_) {
       cutting::carve(*map_, places_[next_].from, places_[next_].station.centre, radius_);
+    }
     return map_;
   }
 
@@ -171,8 +175,9 @@ std::vector<StationError> follow(const AlongJob& job, const HeightMap& stock,
 
 std::vector<Station> stations_of(const std::vector<Place>& places) {
   std::vector<Station> out;
-  for (const Place& place : places)
+  for (const Place& place : places) {
     if (place.cuts) out.push_back(place.station);
+  }
   return out;
 }
 
@@ -226,11 +231,12 @@ path::Motion corrected_motion(const WorkPath& work, const std::vector<Place>& pl
   path::Motion out{work.motion.start, {}};
   std::vector<Vector3d> shift(places.size(), Vector3d::Zero());
   std::size_t k = 0;
-  for (std::size_t i = 0; i < places.size(); ++i)
+  for (std::size_t i = 0; i < places.size(); ++i) {
     if (places[i].cuts) {
       shift[i] = -after[k].shift * places[i].station.n;
       ++k;
     }
+  }
   for (std::size_t i = 0; i < places.size(); ++i) {
     const path::Move& move = work.motion.moves[places[i].move];
     const bool is_end = i + 1 == places.size() || places[i + 1].move != places[i].move;
@@ -245,18 +251,21 @@ path::Motion corrected_motion(const WorkPath& work, const std::vector<Place>& pl
 }
 
 void validate_feeds(const std::vector<Place>& places, double radius) {
-  for (const Place& place : places)
-    if (place.cuts && !(place.station.feed >= 1e-6 && place.station.feed <= radius / 2))
+  for (const Place& place : places) {
+    if (place.cuts && !(place.station.feed >= 1e-6 && place.station.feed <= radius / 2)) {
       refuse({.field = "/along",
               .value = text(place.station.feed) + " mm a tooth",
               .limit = "1e-6 mm to half the radius a tooth at this spindle speed"});
+    }
+  }
 }
 
 void refuse_unless_cutting(const std::vector<Station>& stations) {
-  if (stations.empty())
+  if (stations.empty()) {
     refuse({.field = "/along",
             .value = "no move that cuts across the tool axis",
             .limit = "a path with at least one cutting move that is no plunge"});
+  }
 }
 
 }  // namespace
@@ -283,8 +292,9 @@ Answer predict_work(Object& job, Object& along, WorkPath work, const ResolvedToo
                      .rpm = work.rpm};
   AlongJob read = read_along(job, source, request.definitions);
   job.finish();
-  if (read.correct && read.correct->by_borders)
+  if (read.correct && read.correct->by_borders) {
     refuse({.field = "/correct/aim", .value = "width", .limit = "\"surface\" but for a chamfer"});
+  }
 
   read.course.tool_axis = work.tool_axis;
   work.motion = path::linearised(work.motion, arc_tolerance);
@@ -299,16 +309,18 @@ Answer predict_work(Object& job, Object& along, WorkPath work, const ResolvedToo
   path.stations = stations_of(places);
   path.entries = entries_of(places);
   refuse_unless_cutting(path.stations);
-  for (const Station& station : path.stations)
+  for (const Station& station : path.stations) {
     path.position.emplace_back(station.centre - to_centre);
+  }
   path.result = run(read, stock, places, request.progress);
 
   Answer answer = path_answer(read, path);
   if (request.format == "csv") answer.text = path_csv(path);
   if (request.format == "svg") answer.text = path_drawing(read, path);
-  if (request.format == "html")
+  if (request.format == "html") {
     answer.text = path_page(read, path, answer.document,
                             scene_of(stock, given.json(), tool.tool, work.tool_axis, to_centre));
+  }
   if (request.format == "nc") {
     nc::Program program = work.program;
     program.motion = corrected_motion(work, places, path.result.after, to_centre);

@@ -24,8 +24,9 @@ bool is_control(char c) {
 }
 
 void note(const std::string& pointer, Reading::Type type, const Range& range = {}) {
-  if (Recording* recording = Recording::current())
+  if (Recording* recording = Recording::current()) {
     recording->read(pointer, reading_of(type, range));
+  }
 }
 
 /// An array is noted with its sizes.
@@ -55,8 +56,9 @@ std::string text(const Range& range) {
 
 std::string Value::shown() const {
   // A large array or object is not worth its text: say what it is.
-  if (json_->is_structured() && json_->size() > 8)
+  if (json_->is_structured() && json_->size() > 8) {
     return std::string(kind_of(*json_)) + " of " + std::to_string(json_->size());
+  }
   return shortened(json_->dump(-1, ' ', false, replace_invalid));
 }
 
@@ -80,16 +82,18 @@ double Value::number_or_text(const Range& range) const {
   double number = 0;
   const auto [end, error] =
       std::from_chars(literal.data(), literal.data() + literal.size(), number);
-  if (error != std::errc() || end != literal.data() + literal.size() || !contains(range, number))
+  if (error != std::errc() || end != literal.data() + literal.size() || !contains(range, number)) {
     refuse("a number " + text(range));
+  }
   return number;
 }
 
 int Value::integer(int min, int max) const {
   note(pointer_, Reading::Type::Integer, between(min, max, {}));
   const double number = json_->is_number() ? json_->get<double>() : std::nan("");
-  if (!(number >= min && number <= max && std::trunc(number) == number))
+  if (!(number >= min && number <= max && std::trunc(number) == number)) {
     refuse("a whole number from " + std::to_string(min) + " to " + std::to_string(max));
+  }
   return static_cast<int>(number);
 }
 
@@ -130,8 +134,9 @@ const std::string& Value::name() const {
   if (!json_->is_string()) refuse(limit);
   const std::string& name = json_->get_ref<const std::string&>();
   if (name.empty() || name.size() > max_name_bytes || std::ranges::any_of(name, is_control) ||
-      !is_valid_utf8(name))
+      !is_valid_utf8(name)) {
     refuse(limit);
+  }
   return name;
 }
 
@@ -166,10 +171,12 @@ std::vector<double> Value::numbers(const Range& range) const {
 std::vector<Value> Value::array(std::size_t min_size, std::size_t max_size) const {
   note(pointer_, Reading::Type::Array, sizes(min_size, max_size));
   if (!json_->is_array()) refuse("an array");
-  if (json_->size() < min_size)
+  if (json_->size() < min_size) {
     refuse("an array of at least " + std::to_string(min_size) + " elements");
-  if (json_->size() > max_size)
+  }
+  if (json_->size() > max_size) {
     refuse("an array of at most " + std::to_string(max_size) + " elements");
+  }
   std::vector<Value> values;
   values.reserve(json_->size());
   for (std::size_t i = 0; i < json_->size(); ++i) values.push_back(at(i));
@@ -206,11 +213,12 @@ bool Object::has(std::string_view key) {
 Value Object::required(std::string_view key) {
   std::optional<Value> value = optional(key);
   if (Recording* recording = Recording::current()) recording->member(pointer(), key, true);
-  if (!value)
+  if (!value) {
     jobs::refuse({.field = pointer_of(key),
                   .value = "missing",
                   .limit = "given",
                   .message = pointer_of(key) + " is missing"});
+  }
   return *std::move(value);
 }
 
@@ -269,12 +277,13 @@ void Object::refuse(std::string_view key, std::string_view limit) const {
 }
 
 void Object::exclude(std::string_view key, std::string_view other) {
-  if (has(key) && has(other))
+  if (has(key) && has(other)) {
     jobs::refuse(
         {.field = pointer_of(other),
          .value = Value(value_.json().at(std::string(other))).shown(),
          .limit = "absent beside " + std::string(key),
          .message = "give " + pointer_of(key) + " or " + pointer_of(other) + ", not both"});
+  }
 }
 
 void Object::finish() const {

@@ -1,5 +1,7 @@
 #include "jobs/recording.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "jobs/reader.hpp"
@@ -26,8 +28,9 @@ void widen(Reading& to, const Reading& by) {
   if (to.min != by.min || to.open_min != by.open_min) to.min = any.min, to.open_min = false;
   if (to.max != by.max || to.open_max != by.open_max) to.max = any.max, to.open_max = false;
   if (to.unit != by.unit) to.unit.clear();
-  for (const std::string& word : by.words)
+  for (const std::string& word : by.words) {
     if (std::ranges::find(to.words, word) == to.words.end()) to.words.push_back(word);
+  }
 }
 
 }  // namespace
@@ -73,11 +76,13 @@ Record& Recording::at(const std::string& pointer) {
   for (const std::string& token : tokens_of(pointer)) {
     const auto member = std::ranges::find(record->members, token, &Record::Member::key);
     const bool is_known = member != record->members.end();
-    const auto literal = places_.find(place + "/" + token);
-    place += "/" + (is_known || literal != places_.end() ? token : "*");
+    const auto literal = places_.find(fmt::format("{}/{}", place, token));
+    place += '/';
+    place += is_known || literal != places_.end() ? token : "*";
     const auto other = places_.find(place);
-    if (!is_known && literal == places_.end() && !record->each)
+    if (!is_known && literal == places_.end() && !record->each) {
       record->each = std::make_unique<Record>();
+    }
     Record* const here = is_known ? member->value.get() : record->each.get();
     if (other != places_.end()) {
       if (here != nullptr) here->definitions.insert(other->second);
@@ -92,10 +97,11 @@ Record& Recording::at(const std::string& pointer) {
 void Recording::read(const std::string& pointer, Reading reading) {
   Record& record = at(pointer);
   const auto same = std::ranges::find(record.readings, reading.type, &Reading::type);
-  if (same == record.readings.end())
+  if (same == record.readings.end()) {
     record.readings.push_back(std::move(reading));
-  else
+  } else {
     widen(*same, reading);
+  }
 }
 
 void Recording::object(const std::string& pointer) {
@@ -115,10 +121,11 @@ void Recording::member(const std::string& pointer, std::string_view key, bool is
 void Recording::otherwise(const std::string& pointer, std::string_view key,
                           const nlohmann::json& value) {
   Record::Member& member = at(pointer).member(key);
-  if (!member.otherwise)
+  if (!member.otherwise) {
     member.otherwise = value;
-  else if (*member.otherwise != value)
+  } else if (*member.otherwise != value) {
     member.otherwise = nullptr;
+  }
 }
 
 Reading reading_of(Reading::Type type, const Range& range) {

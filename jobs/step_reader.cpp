@@ -179,13 +179,16 @@ private:
 };
 
 void check_end(int status, const ReaderLimits& limits) {
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
     refuse("it takes longer than " + std::to_string(static_cast<int>(limits.seconds)) + " s");
-  if (WIFSIGNALED(status))
+  }
+  if (WIFSIGNALED(status)) {
     refuse("the translator failed on it (signal " + std::to_string(WTERMSIG(status)) + ")");
-  if (WEXITSTATUS(status) != 0)
+  }
+  if (WEXITSTATUS(status) != 0) {
     throw Error(ErrorCode::Internal, "the reader of STEP files ended with status " +
                                          std::to_string(WEXITSTATUS(status)));
+  }
 }
 
 }  // namespace
@@ -200,13 +203,15 @@ Json read_step_file(Json wish, std::string_view step, const Progress& progress,
   std::string text;
   while (reader.read(text, 50)) {
     progress.at(0, "reading the part");
-    if (Clock::now() > end)
+    if (Clock::now() > end) {
       refuse("it takes longer than " + std::to_string(static_cast<int>(limits.seconds)) + " s");
+    }
   }
   check_end(reader.wait(), limits);
   Json document = Json::parse(text, nullptr, false);
-  if (!document.is_object())
+  if (!document.is_object()) {
     throw Error(ErrorCode::Internal, "the reader of STEP files answered no document");
+  }
   return document;
 }
 

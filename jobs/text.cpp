@@ -25,8 +25,9 @@ std::size_t sequence_length(std::string_view text) {
                              : first >= 0xF0 && first <= 0xF4 ? 4
                                                               : 0;
   if (length == 0 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i)
+  for (std::size_t i = 1; i < length; ++i) {
     if (!is_continuation(byte(i))) return 0;
+  }
   const bool overlong = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xF0 && byte(1) < 0x90);
   const bool surrogate = first == 0xED && byte(1) > 0x9F;
   const bool too_large = first == 0xF4 && byte(1) > 0x8F;
@@ -98,12 +99,13 @@ std::vector<std::string> nearest(std::string_view wanted, std::vector<std::strin
 std::string pointer_token(std::string_view key) {
   std::string token;
   for (const char c : key) {
-    if (c == '~')
+    if (c == '~') {
       token += "~0";
-    else if (c == '/')
+    } else if (c == '/') {
       token += "~1";
-    else
+    } else {
       token += c;
+    }
   }
   return token;
 }

@@ -53,11 +53,12 @@ cutting::Compliance beam_compliance(const tool::Tool& tool, const BeamMaterial& 
                                     const std::string& pointer) {
   cutting::Beam beam;
   beam.parts = shaft(tool);
-  if (beam.parts.empty())
+  if (beam.parts.empty()) {
     refuse({.field = pointer,
             .limit = "given: modes_x and modes_y, or a tool with neck_length or stickout",
             .message = "how the tool gives way is not known: give its dynamics with modes, or its "
                        "neck_length or stickout, from which a beam gives an estimate"});
+  }
   beam.modulus = given.modulus;
   beam.density = given.density * 1e-12;  // kg/m3 to t/mm3
   beam.damping = given.damping;
@@ -79,10 +80,12 @@ cutting::Modes fitted(const Value& value, CuttingTool& out) {
 std::optional<cutting::Modes> direction(Object& object, const std::string& axis, CuttingTool& out) {
   for (const std::string& suffix : {"_" + axis, std::string()}) {
     object.exclude("modes" + suffix, "frf" + suffix);
-    if (const std::optional<Value> modes = object.optional("modes" + suffix))
+    if (const std::optional<Value> modes = object.optional("modes" + suffix)) {
       return read_mode_rows(*modes);
-    if (const std::optional<Value> measured = object.optional("frf" + suffix))
+    }
+    if (const std::optional<Value> measured = object.optional("frf" + suffix)) {
       return fitted(*measured, out);
+    }
   }
   return {};
 }
@@ -91,8 +94,9 @@ void read_compliance(Object& object, const tool::Tool& tool, CuttingTool& out) {
   const std::optional<cutting::Modes> x = direction(object, "x", out);
   const std::optional<cutting::Modes> y = direction(object, "y", out);
   const std::optional<Value> beam = object.optional("beam");
-  if (x.has_value() != y.has_value())
+  if (x.has_value() != y.has_value()) {
     object.refuse(x ? "modes_y" : "modes_x", "given where the other direction is; [] is rigid");
+  }
   if (x && beam) object.refuse("beam", "left out where modes are given");
   if (x) {
     out.compliance = {*x, *y, Eigen::Matrix2d::Identity()};
@@ -143,10 +147,11 @@ void check_dynamics(const Value& value, const tool::Tool& tool) {
 CuttingTool cutting_tool(const tool::Tool& tool, const Value& dynamics, int elements) {
   constexpr double steepest = radians(80);
   CuttingTool out;
-  if (!(std::abs(tool.helix_angle) <= steepest))
+  if (!(std::abs(tool.helix_angle) <= steepest)) {
     refuse({.field = "/tool/helix_angle",
             .value = text(degrees(tool.helix_angle)),
             .limit = "at most 80 degrees for a prediction"});
+  }
   out.cutter = cutter_of(tool, elements);
   if (dynamics.json().is_null()) {
     out.compliance = beam_compliance(tool, {}, dynamics.pointer());
@@ -156,10 +161,11 @@ CuttingTool cutting_tool(const tool::Tool& tool, const Value& dynamics, int elem
     Object object(dynamics);
     read_members(object, tool, out);
   }
-  if (out.is_estimate)
+  if (out.is_estimate) {
     out.warnings.emplace_back(
         "how the tool gives way is an estimate from its geometry: measure it before trusting a "
         "correction");
+  }
   return out;
 }
 
@@ -167,8 +173,9 @@ namespace {
 
 nlohmann::json modes_document(const cutting::Direction& direction) {
   nlohmann::json rows = nlohmann::json::array();
-  for (const cutting::Mode& mode : cutting::modes_of(direction))
+  for (const cutting::Mode& mode : cutting::modes_of(direction)) {
     rows.push_back({mode.frequency, mode.damping, mode.stiffness});
+  }
   return rows;
 }
 

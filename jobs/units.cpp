@@ -60,8 +60,9 @@ std::optional<units::GivenStock> read_stock(Object& job, const Progress& progres
 
 UnitsProgram planned(Object& job, const Request& request) {
   units::PlanJob plan;
-  if (const auto parameters = job.optional("parameters"))
+  if (const auto parameters = job.optional("parameters")) {
     plan.parameters = read_parameters(*parameters);
+  }
   if (const auto split = job.optional("split")) plan.split = read_split(*split);
   Part part = read_part(job, request);
   plan.product = std::move(part.product);
@@ -98,13 +99,14 @@ Answer nc_of(Object& job, std::string_view format) {
   const UnitsProgram whole = read_whole(job);
   const std::optional<Value> output = job.optional("output");
   job.finish();
-  if (format != "json" && format != "nc")
+  if (format != "json" && format != "nc") {
     refuse({.code = ErrorCode::Unsupported,
             .field = "",
             .value = std::string(format),
             .limit = "json or nc",
             .message = "the NC of a program has no format \"" + std::string(format) +
                        "\": ask for json or nc"});
+  }
   return units_nc(whole.program, output, format);
 }
 
@@ -152,12 +154,13 @@ Answer units_program(const Request& request) {
   const Operation operation = job.choice("operation", operations, Operation::Plan);
   if (operation == Operation::Nc) return nc_of(job, request.format);
   if (operation == Operation::Holes) return holes_of(job, request);
-  if (request.format == "nc")
+  if (request.format == "nc") {
     refuse({.code = ErrorCode::Unsupported,
             .field = "/operation",
             .value = "absent",
             .limit = "nc",
             .message = "the format nc is of the operation \"nc\", which takes a program"});
+  }
   const UnitsProgram whole = run(operation, job, request);
   Answer answer{.document = program_document(whole), .arrays = {}, .text = {}};
   if (request.format == "text") answer.text = units_text(whole.program);

@@ -33,8 +33,9 @@ Vector3d middle_of(const FaceEdge& arc, const Vector3d& n) {
   const Vector3d u = arc.start - arc.centre, v = arc.end - arc.centre;
   const Vector3d w = n.cross(u);
   double turn = std::atan2(v.dot(w), v.dot(u));
-  if (arc.is_clockwise != (turn < 0))
+  if (arc.is_clockwise != (turn < 0)) {
     turn += turn < 0 ? 2 * std::numbers::pi : -2 * std::numbers::pi;
+  }
   return arc.centre + std::cos(turn / 2) * u + std::sin(turn / 2) * w;
 }
 
@@ -66,10 +67,12 @@ std::optional<Region> arc_wing(const units::Product& product, const FaceEdge& ed
 Region milled_area(const units::Product& product, const MilledFace& face, const LatheFrame& frame,
                    MillingPlane& plane, double R) {
   double least = 0;
-  for (const auto& loop : face.outline)
-    for (const FaceEdge& edge : loop)
+  for (const auto& loop : face.outline) {
+    for (const FaceEdge& edge : loop) {
       least = std::min(
           {least, frame.point(edge.start).dot(plane.b), frame.point(edge.end).dot(plane.b)});
+    }
+  }
   plane.shift = 1000 + 4 * R - least;
   const Vector3d right = plane.a;
   const Vector3d up = plane.b;
@@ -121,9 +124,10 @@ Region milled_area(const units::Product& product, const MilledFace& face, const 
           is_open(product, {edge.start - over, edge.start - over}, Vector3d::Zero()) &&
           is_open(product, {edge.end + over, edge.end + over}, Vector3d::Zero());
       const std::vector<Vector3d>& used = ends_open ? corners : plain;
-      for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t k = 0; k < 4; ++k) {
         wing.push_back(
             {plane.in(frame.point(used[k])), plane.in(frame.point(used[(k + 1) % 4])), {}});
+      }
       parts.push_back(units::region_of(wing));
     }
   }

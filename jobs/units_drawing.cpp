@@ -101,13 +101,15 @@ std::string units_svg(const Program& program) {
   svg.text({20, 24}, title_of(program) + ": half section, X up, Z to the right", "title");
   svg.area(view, half_section(program.stock), "outline");
   svg.area(view, half_section(program.product.shadow), "body");
-  for (std::size_t i = 0; i < program.units.size(); ++i)
+  for (std::size_t i = 0; i < program.units.size(); ++i) {
     svg.area(view, half_section(program.units[i]), fmt::format("unit{}", i + 1));
+  }
   const units::Box s = units::box(program.stock);
   svg.polyline(view, {{view.model_min.x(), 0}, {view.model_max.x(), 0}}, "axis");
   draw_split(svg, view, program, program.split.outer, "outer split");
-  if (std::abs(program.split.inner - program.split.outer) > 1e-6)
+  if (std::abs(program.split.inner - program.split.outer) > 1e-6) {
     draw_split(svg, view, program, program.split.inner, "inner split");
+  }
   svg.text(on_sheet(view, {s.z0, 0}) + Vector2d(0, 16), fmt::format("Z {:.6g}", s.z0), "small");
   svg.text(on_sheet(view, {s.z1, 0}) + Vector2d(0, 16), fmt::format("Z {:.6g}", s.z1), "small",
            Svg::Anchor::End);
@@ -125,8 +127,9 @@ std::string units_text(const Program& program) {
       if (unit.process != process) continue;
       fmt::format_to(line, "  {}  {:.3f} mm3  {}\n", unit_label(unit), unit.volume,
                      name(unit.state));
-      for (const units::ToolRow& row : unit.tools)
+      for (const units::ToolRow& row : unit.tools) {
         fmt::format_to(line, "       T{} {}: {}\n", row.number, row.pattern, row.tool);
+      }
       for (const std::string& note : unit.notes) fmt::format_to(line, "       note: {}\n", note);
     }
   }

@@ -21,8 +21,9 @@ constexpr std::array<std::string_view, 5> settable{"machining", "shape", "tools"
 Json::json_pointer path_of(const std::string& path, const Value& at) {
   const std::string head = path.substr(0, path.find('/', 1));
   const std::string_view first = head.starts_with('/') ? std::string_view(head).substr(1) : head;
-  if (std::ranges::find(settable, first) == settable.end())
+  if (std::ranges::find(settable, first) == settable.end()) {
     at.refuse("set by paths that begin with " + alternatives(settable));
+  }
   try {
     return Json::json_pointer(path.starts_with('/') ? path : "/" + path);
   } catch (const Json::exception&) {
@@ -49,10 +50,11 @@ void join_rows(const Json& before, Json& after) {
     const bool is_end_moved = after[i].value("end", Json()) != before[i].at("end");
     const bool is_start_moved = after[i + 1].value("start", Json()) != before[i + 1].at("start");
     if (is_end_moved == is_start_moved) continue;
-    if (is_end_moved)
+    if (is_end_moved) {
       after[i + 1]["start"] = after[i].value("end", Json());
-    else
+    } else {
       after[i]["end"] = after[i + 1].value("start", Json());
+    }
     after[is_end_moved ? i + 1 : i].erase("centre");
   }
 }
@@ -69,8 +71,9 @@ struct Change {
 };
 
 Change changed(const Unit& unit, const Value& set) {
-  if (!set.json().is_object() || set.json().empty())
+  if (!set.json().is_object() || set.json().empty()) {
     set.refuse("an object of paths and their new values");
+  }
   const Json before = unit_document(unit);
   Json after = before;
   Change change;
@@ -94,18 +97,22 @@ Change changed(const Unit& unit, const Value& set) {
 Unit inserted(const Value& value) {
   const Json& document = value.json();
   if (document.is_object()) {
-    for (const char* key : {"region", "core", "number", "state", "volume", "feature"})
-      if (document.contains(key))
+    for (const char* key : {"region", "core", "number", "state", "volume", "feature"}) {
+      if (document.contains(key)) {
         value.refuse("without \"" + std::string(key) + "\", which the planner makes");
+      }
+    }
   }
   return read_unit(value);
 }
 
 /// A changed unit that an edit of the same list changes again.
 Unit* pending(std::vector<Edit>& edits, int number) {
-  for (Edit& edit : edits)
-    if (auto* change = std::get_if<units::ChangeUnit>(&edit); change && change->number == number)
+  for (Edit& edit : edits) {
+    if (auto* change = std::get_if<units::ChangeUnit>(&edit); change && change->number == number) {
       return &change->unit;
+    }
+  }
   return nullptr;
 }
 
@@ -131,10 +138,11 @@ Program edited(const Program& program, const Value& value) {
       const Change change =
           changed(before != nullptr ? *before : with_tools, object.required("set"));
       with_tools.tools = change.unit.tools;
-      if (before != nullptr)
+      if (before != nullptr) {
         *before = change.unit;
-      else if (!change.is_of_tools)
+      } else if (!change.is_of_tools) {
         edits.emplace_back(units::ChangeUnit{unit.number, change.unit});
+      }
     } else {
       each.refuse("{\"unit\", \"set\"}, {\"insert_after\", \"unit\"} or {\"remove\"}");
     }

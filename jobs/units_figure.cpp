@@ -51,18 +51,20 @@ Loops half_section(const units::Region& region) {
 }
 
 Loops half_section(const Unit& unit) {
-  if (unit.hole && units::is_empty(unit.region))
+  if (unit.hole && units::is_empty(unit.region)) {
     return band(unit.hole->start, unit.hole->direction, unit.hole->depth, unit.hole->diameter / 2);
+  }
   if (unit.face) {
     const Vector3d& n = unit.face->normal;
     const double height = std::abs(n.dot(unit.face->point));
     const double z0 = unit.face->z0;
     const double z1 = unit.face->z1;
-    if (std::abs(n.z()) < 0.5)
+    if (std::abs(n.z()) < 0.5) {
       return {{{z0, height},
                {z1, height},
                {z1, height + unit.face->depth},
                {z0, height + unit.face->depth}}};
+    }
     const double r = std::hypot(unit.face->point.x(), unit.face->point.y());
     const double w = std::max(unit.face->width / 2, 0.5);
     return band({r, 0, unit.face->point.z()}, n, unit.face->depth, w);

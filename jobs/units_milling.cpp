@@ -112,8 +112,9 @@ public:
           2 * std::acos(std::max(0.0, 1 - chord / std::max(row.arc->radius, chord)));
       n = std::max(2, static_cast<int>(std::ceil(turn / most)));
     }
-    for (int i = 1; i <= n; ++i)
+    for (int i = 1; i <= n; ++i) {
       line(i == n ? row.end : units::point_at(row, static_cast<double>(i) / n), height, feed_);
+    }
   }
 
 private:
@@ -176,8 +177,9 @@ void mill_level(Miller& miller, const Region& centres, double height, double top
 std::optional<TiltedPlane> in_tilted_plane(const Unit& unit, Tilt tilt, nc::LatheControl control,
                                            std::vector<std::string>& notes) {
   std::string why = std::move(tilt.why);
-  if (tilt.plane && control == nc::LatheControl::LinuxCnc)
+  if (tilt.plane && control == nc::LatheControl::LinuxCnc) {
     why = "it needs a tilted work plane, which LinuxCNC does not have";
+  }
   if (why.empty()) return tilt.plane;
   notes.push_back(fmt::format("unit {}: {}; no path", unit.number, why));
   return std::nullopt;
@@ -267,8 +269,9 @@ void add_mill_steps(const units::Product& product, const Unit& unit, const Lathe
   const Region area = milled_area(product, face, frame, *plane, D / 2);
   Region centres = units::shrunk(area, D / 2);
   if (units::is_empty(centres)) centres = units::shrunk(area, 0.995 * D / 2);
-  if (units::is_empty(centres))
+  if (units::is_empty(centres)) {
     return give_up(fmt::format("a cutter of diameter {:.6g} does not enter it", D));
+  }
   LatheStep step = driven(unit, row, "FACE MILL", D);
   step.c = plane->is_radial ? plane->c : 0;
   double bottom = frame.point(face.point).dot(plane->h);
@@ -284,8 +287,9 @@ void add_mill_steps(const units::Product& product, const Unit& unit, const Lathe
   const Point first = units::contours(centres).front().front().start;
   miller.rapid(first, level - bottom);
   const int levels = std::max(1, static_cast<int>(std::ceil(face.depth / row.depth_of_cut - 1e-9)));
-  for (int i = levels - 1; i >= 0; --i)
+  for (int i = levels - 1; i >= 0; --i) {
     mill_level(miller, centres, face.depth * i / levels, face.depth + clear, D, step.feed);
+  }
   program.steps.push_back(std::move(step));
 }
 

@@ -108,10 +108,11 @@ LatheStep turn_step(const TurningStep& step, const LatheFrame& frame, const Lath
   std::vector<LatheMove> begin;
   add_path(first, step, frame, begin);
   LatheMove between = begin.front();
-  if (step.approach == Approach::Inner)
+  if (step.approach == Approach::Inner) {
     between.z = program.safe_z;  // in through the bore's mouth
-  else
+  } else {
     between.x = program.safe_x;
+  }
   out.moves = {between, begin.front()};
   for (const TurningMove& move : step.moves) add_path(move, step, frame, out.moves);
   if (step.approach == Approach::Inner) {
@@ -142,8 +143,9 @@ Json add_turned(const units::Program& program, const Unit& unit, const LatheFram
     out.tool = std::max(1, step.tool.number);
     out.comment = fmt::format("UNIT {} {} {}, {}", unit.number, name(unit.kind), step.tool.pattern,
                               step.tool.tool);
-    if (step.kind == TurningStep::Kind::Turn)
+    if (step.kind == TurningStep::Kind::Turn) {
       out.comment += fmt::format(", LEAVES {:.6g}", step.allowance);
+    }
     text.steps.push_back(std::move(out));
   }
   return {{"number", unit.number},
@@ -155,8 +157,9 @@ Json add_turned(const units::Program& program, const Unit& unit, const LatheFram
 /// What turning has left of the stock before a unit.
 units::Region standing(const units::Program& program, const Unit& unit) {
   std::vector<units::Region> cut;
-  for (const Unit& one : program.units)
+  for (const Unit& one : program.units) {
     if (one.number < unit.number && units::is_turned(one)) cut.push_back(one.region);
+  }
   return units::difference_of(program.stock, units::union_of(cut));
 }
 
@@ -181,14 +184,15 @@ Written written(const units::Program& program, int process, const Output& output
   out.program.top_speed = output.top_speed;
   for (const Unit& unit : program.units) {
     if (unit.process != process) continue;
-    if (unit.kind == units::UnitKind::Unexplained)
+    if (unit.kind == units::UnitKind::Unexplained) {
       out.notes.push_back(fmt::format("unit {} is not explained: no path", unit.number));
-    else if (units::is_turned(unit))
+    } else if (units::is_turned(unit)) {
       out.units.push_back(add_turned(program, unit, frame, out.program, out.notes));
-    else if (unit.kind == units::UnitKind::Hole)
+    } else if (unit.kind == units::UnitKind::Hole) {
       add_hole_steps(unit, frame, standing(program, unit), output.control, out.program, out.notes);
-    else
+    } else {
       add_mill_steps(program.product, unit, frame, output.control, out.program, out.notes);
+    }
   }
   return out;
 }
@@ -232,8 +236,9 @@ Answer units_nc(const units::Program& program, const std::optional<Value>& outpu
   }
   // two FANUC programs are one file: a single % at each end
   const std::string between = "%\n%\n";
-  if (const std::size_t at = answer.text.find(between); at != std::string::npos)
+  if (const std::size_t at = answer.text.find(between); at != std::string::npos) {
     answer.text.erase(at, between.size());
+  }
   return answer;
 }
 

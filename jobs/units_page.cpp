@@ -27,6 +27,7 @@ Json loops_document(const Loops& loops) {
   Json list = Json::array();
   for (const std::vector<Eigen::Vector2d>& loop : loops) {
     std::vector<Vector3d> points;
+    points.reserve(loop.size());
     for (const Eigen::Vector2d& p : loop) points.emplace_back(p.x(), p.y(), 0);
     list.push_back(page_points(points));
   }
@@ -95,8 +96,9 @@ std::string units_page(const UnitsProgram& whole, const Json& document) {
   const Program& program = whole.program;
   const units::Box box = units::box(program.stock);
   Json list = Json::array();
-  for (std::size_t i = 0; i < program.units.size(); ++i)
+  for (std::size_t i = 0; i < program.units.size(); ++i) {
     list.push_back(unit_data(program.units[i], i, document.at("units")[i]));
+  }
   const Json splits = {{{"z", program.split.outer}, {"name", "outer split"}},
                        {{"z", program.split.inner}, {"name", "inner split"}}};
   return page(

@@ -91,10 +91,12 @@ double nominal_volume(const Hole& hole) {
     return std::numbers::pi * l * (d0 * d0 + d0 * d1 + d1 * d1) / 12;
   };
   double sum = 0;
-  for (const HoleStep& step : hole.steps)
+  for (const HoleStep& step : hole.steps) {
     sum += frustum(step.diameter, step.end_diameter, step.length);
-  if (hole.bottom == HoleBottom::Cone)
+  }
+  if (hole.bottom == HoleBottom::Cone) {
     sum += frustum(hole.diameter, 0, hole.diameter / 2 / std::tan(hole.point_angle / 2));
+  }
   return sum;
 }
 
@@ -143,10 +145,11 @@ Json hole_document(const Hole& hole) {
                    {"volume", hole.volume}};
   if (hole.bottom == HoleBottom::Cone) document["point_angle"] = degrees(hole.point_angle);
   document["steps"] = Json::array();
-  for (const HoleStep& step : hole.steps)
+  for (const HoleStep& step : hole.steps) {
     document["steps"].push_back({{"diameter", step.diameter},
                                  {"end_diameter", step.end_diameter},
                                  {"length", step.length}});
+  }
   return document;
 }
 
@@ -199,8 +202,9 @@ MilledFace read_face(const Value& value) {
   if (const std::optional<Value> outline = object.optional("outline")) {
     for (const Value& loop : outline->array(0, max_rows)) {
       face.outline.emplace_back();
-      for (const Value& edge : loop.array(1, max_rows))
+      for (const Value& edge : loop.array(1, max_rows)) {
         face.outline.back().push_back(read_edge(edge));
+      }
     }
   }
   face.z0 = face.z1 = face.point.z();
@@ -267,16 +271,19 @@ units::Product read_product(const Value& value) {
   for (const MilledFace& face : product.faces) features += face.volume;
   for (const Remainder& rest : product.remainders) features += rest.volume;
   const double whole = units::volume(product.shadow);
-  if (std::optional<double> volume = object.optional_number("volume", section_volume_range))
+  if (std::optional<double> volume = object.optional_number("volume", section_volume_range)) {
     product.volume = *volume;
-  else
+  } else {
     product.volume = std::max(0.0, whole - features);
+  }
   const double diameter = 2 * units::box(product.shadow).r1;
   product.x_length = object.number("x_length", extent_range, diameter);
   product.y_length = object.number("y_length", extent_range, diameter);
-  if (const std::optional<Value> notes = object.optional("notes"))
-    for (const Value& note : notes->array(0, 1000))
+  if (const std::optional<Value> notes = object.optional("notes")) {
+    for (const Value& note : notes->array(0, 1000)) {
       product.notes.push_back(shortened(note.string(), 400));
+    }
+  }
   object.finish();
   return product;
 }

@@ -45,17 +45,19 @@ Json tree_document(const Program& program) {
     for (const Unit& unit : program.units) {
       if (unit.process != process) continue;
       Json tools = Json::array();
-      for (const units::ToolRow& row : unit.tools)
+      for (const units::ToolRow& row : unit.tools) {
         tools.push_back({{"label", row.pattern + ": " + row.tool}});
+      }
       children.push_back({{"label", unit_label(unit)},
                           {"unit", unit.number},
                           {"state", name(unit.state)},
                           {"children", std::move(tools)}});
     }
-    if (!children.empty())
+    if (!children.empty()) {
       processes.push_back({{"label", "process " + std::to_string(process)},
                            {"process", process},
                            {"children", std::move(children)}});
+    }
   }
   const std::string& name = program.product.name;
   return {{"label", name.empty() ? "program" : name}, {"children", std::move(processes)}};
@@ -77,8 +79,9 @@ units::Removed read_removed(const Value& value) {
   removed.kind = *found;
   removed.process = object.integer("process", 1, 2, 1);
   if (const auto region = object.optional("region")) removed.region = read_region(*region);
-  if (object.has("feature"))
+  if (object.has("feature")) {
     removed.feature = static_cast<std::size_t>(object.integer("feature", 0, 1'000'000, 0));
+  }
   object.finish();
   return removed;
 }
@@ -166,8 +169,9 @@ Json program_document(const UnitsProgram& whole) {
                    {"removed", Json::array()},
                    {"edits", whole.edits}};
   for (const Unit& unit : program.units) document["units"].push_back(unit_document(unit));
-  for (const units::Removed& one : program.removed)
+  for (const units::Removed& one : program.removed) {
     document["removed"].push_back(removed_document(one));
+  }
   if (!whole.placement.is_null()) document["placement"] = whole.placement;
   return document;
 }
@@ -195,8 +199,9 @@ UnitsProgram read_program(const Value& value) {
       check_feature(program, program.removed.back().kind, program.removed.back().feature, each);
     }
   }
-  if (const auto notes = object.optional("notes"))
+  if (const auto notes = object.optional("notes")) {
     for (const Value& note : notes->array(0, max_units)) program.notes.push_back(note.string());
+  }
   if (const auto placement = object.optional("placement")) whole.placement = placement->json();
   if (const auto edits = object.optional("edits")) {
     edits->array();

@@ -43,16 +43,18 @@ Segment read_arc(Object& object, const Point& start, const Point& end) {
   const Sense sense = object.required("sense").choice(senses);
   const std::optional<Value> centre = object.optional("centre");
   if (!centre) {
-    if (std::hypot(end.r - start.r, end.z - start.z) > 2 * R + centre_tolerance)
+    if (std::hypot(end.r - start.r, end.z - start.z) > 2 * R + centre_tolerance) {
       object.refuse("radius", "at least half the distance of start and end");
+    }
     const double least = std::hypot(end.r - start.r, end.z - start.z) / 2;
     return units::arc_segment(start, end, std::max(R, least), sense);
   }
   Segment row{start, end, Segment::Round{read_centre(*centre), R, sense}};
   for (const Point& p : {start, end}) {
     const double distance = std::hypot(p.r - row.arc->centre.r, p.z - row.arc->centre.z);
-    if (!(std::abs(distance - R) <= centre_tolerance))
+    if (!(std::abs(distance - R) <= centre_tolerance)) {
       centre->refuse("a centre at the radius from start and end (or leave it out)");
+    }
   }
   return row;
 }
@@ -91,8 +93,9 @@ std::vector<Segment> read_rows(const Value& value) {
 
 Json region_document(const units::Region& region) {
   Json document = Json::array();
-  for (const units::Contour& contour : units::contours(region))
+  for (const units::Contour& contour : units::contours(region)) {
     document.push_back(rows_document(contour));
+  }
   return document;
 }
 
@@ -104,15 +107,17 @@ units::Region read_region(const Value& value) {
     for (Segment& row : read_rows(loop)) {
       if (!joined.empty()) {
         const Point& last = joined.back().end;
-        if (std::hypot(last.r - row.start.r, last.z - row.start.z) > units::vertex_tolerance)
+        if (std::hypot(last.r - row.start.r, last.z - row.start.z) > units::vertex_tolerance) {
           joined.push_back({last, row.start, {}});
+        }
       }
       joined.push_back(row);
     }
     const Point& last = joined.back().end;
     const Point& first = joined.front().start;
-    if (std::hypot(last.r - first.r, last.z - first.z) > units::vertex_tolerance)
+    if (std::hypot(last.r - first.r, last.z - first.z) > units::vertex_tolerance) {
       joined.push_back({last, first, {}});
+    }
     count += joined.size();
     if (count > max_rows) value.refuse("at most " + std::to_string(max_rows) + " rows");
     loops.push_back(std::move(joined));

@@ -32,8 +32,9 @@ Enum read_enum(const Value& value, const std::array<Enum, n>& all) {
   std::array<std::string_view, n> names;
   for (std::size_t i = 0; i < n; ++i) names[i] = name(all[i]);
   const std::string& wanted = value.string();
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t i = 0; i < n; ++i) {
     if (names[i] == wanted) return all[i];
+  }
   value.refuse(alternatives(names));
 }
 
@@ -164,8 +165,9 @@ Json unit_document(const Unit& unit) {
   if (!unit.notes.empty()) document["notes"] = unit.notes;
   if (!units::is_empty(unit.region)) {
     document["region"] = region_document(unit.region);
-    if (!units::is_empty(units::difference_of(unit.region, unit.core)))
+    if (!units::is_empty(units::difference_of(unit.region, unit.core))) {
       document["core"] = region_document(unit.core);
+    }
   }
   return document;
 }
@@ -184,20 +186,23 @@ Unit read_unit(const Value& value) {
   if (has_shape(unit.kind)) {
     unit.shape = read_rows(object.required("shape"));
     unit.start = unit.shape.front().start;
-    if (const auto machining = object.optional("machining"))
+    if (const auto machining = object.optional("machining")) {
       read_machining(*machining, unit, unit.volume);
+    }
   } else {
     read_machining(object.required("machining"), unit, unit.volume);
     if (const auto shape = object.optional("shape")) shape->array(0, 0);
   }
   unit.is_closed = object.boolean("closed", unit.kind == UnitKind::Groove);
-  if (object.has("feature"))
+  if (object.has("feature")) {
     unit.feature = static_cast<std::size_t>(object.integer("feature", 0, 1'000'000, 0));
+  }
   if (const auto region = object.optional("region")) unit.region = read_region(*region);
   unit.core = unit.region;
   if (const auto core = object.optional("core")) unit.core = read_region(*core);
-  if (const auto notes = object.optional("notes"))
+  if (const auto notes = object.optional("notes")) {
     for (const Value& note : notes->array(0, 1000)) unit.notes.push_back(note.string());
+  }
   if (const auto tools = object.optional("tools")) {
     for (const Value& row : tools->array(0, 100)) unit.tools.push_back(read_tool_row(row));
   } else {

@@ -85,20 +85,26 @@ std::vector<std::string> warnings(const ChamferJob& job, const nc::Reading& read
   std::vector<std::string> all;
   if (report) all = unchecked(*report);
   const int tool = job.job.tool.number;
-  if (reading.tool_number && tool != 0 && *reading.tool_number != tool)
+  if (reading.tool_number && tool != 0 && *reading.tool_number != tool) {
     all.push_back("the program calls tool " + std::to_string(*reading.tool_number) +
                   ", the job says " + std::to_string(tool));
-  if (!reading.work_offset.empty() && !is_same_offset(reading.work_offset, job.program.work_offset))
+  }
+  if (!reading.work_offset.empty() &&
+      !is_same_offset(reading.work_offset, job.program.work_offset)) {
     all.push_back("the program works in " + reading.work_offset + ", the job says " +
                   job.program.work_offset);
-  if (reading.spindle_clockwise && *reading.spindle_clockwise != job.program.spindle_clockwise)
+  }
+  if (reading.spindle_clockwise && *reading.spindle_clockwise != job.program.spindle_clockwise) {
     all.emplace_back("the program turns the spindle against the tool's cutting sense");
-  if (reading.unmeasured_line)
+  }
+  if (reading.unmeasured_line) {
     all.push_back("the rapids from line " + std::to_string(*reading.unmeasured_line) +
                   " on are not measured: another plane, offset or tool length than the cut's");
-  if (report && report->rapid_clearance < job.job.clearance)
+  }
+  if (report && report->rapid_clearance < job.job.clearance) {
     all.push_back("rapids come within " + text(report->rapid_clearance) +
                   " mm of the part, the job asks for " + text(job.job.clearance) + " mm");
+  }
   return all;
 }
 
@@ -131,8 +137,9 @@ Answer verify(const Request& request) {
         {"overcut", width_limit(job)},
         {"clearance", 0}}},
       {"warnings", warnings(job, reading, measured.report)}};
-  for (const Failure& failure : measured.failed)
+  for (const Failure& failure : measured.failed) {
     answer.document["failures"].push_back(failure_document(failure, reading));
+  }
   return answer;
 }
 

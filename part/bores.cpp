@@ -27,8 +27,9 @@ bool is_round_wall(const Face& face) {
 
 template <class F>
 void for_each_edge(const Face& face, const F& f) {
-  for (const std::vector<EdgeUse>& loop : face.loops)
+  for (const std::vector<EdgeUse>& loop : face.loops) {
     for (const EdgeUse& use : loop) f(use.edge);
+  }
 }
 
 /// A stretch of wall along the axis, t measured from the axis point.
@@ -56,10 +57,11 @@ std::vector<Group> groups_of(const Placed& part, const std::vector<int>& faces) 
     const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
       return is_same_axis(group.axis, axis);
     });
-    if (same != groups.end())
+    if (same != groups.end()) {
       same->walls.push_back(number);
-    else
+    } else {
       groups.push_back({.axis = axis, .walls = {number}, .planes = {}, .stretches = {}});
+    }
   }
   return groups;
 }
@@ -72,8 +74,9 @@ bool is_closed_round(const Placed& part, const Group& group) {
     for (const int other : group.walls) {
       const Face& second = face_at(part, other);
       if (second.surface.kind == face.surface.kind &&
-          std::abs(second.surface.radius - face.surface.radius) < same_radius)
+          std::abs(second.surface.radius - face.surface.radius) < same_radius) {
         sweep += second.sweep;
+      }
     }
     if (sweep > full) return true;
   }
@@ -127,8 +130,9 @@ void add_planes(const Placed& part, const std::vector<int>& faces, Group& group)
     double widest = 0;
     for_each_edge(face, [&](int edge) {
       const Edge& e = part.model().edges[static_cast<std::size_t>(edge)];
-      for (const int other : e.faces)
+      for (const int other : e.faces) {
         touches |= std::find(group.walls.begin(), group.walls.end(), other) != group.walls.end();
+      }
       for (const Eigen::Vector3d& p : e.points) {
         const Eigen::Vector3d d = p - group.axis.point;
         widest = std::max(widest, (d - d.dot(group.axis.direction) * group.axis.direction).norm());
@@ -153,11 +157,13 @@ void open_steps(const Placed& part, Group& group) {
   };
   const double beyond = 1e-3;
   if (group.closed_low && ends_in_air(group.stretches.front().t0 - beyond) &&
-      group.stretches.front().r0 > point)
+      group.stretches.front().r0 > point) {
     group.closed_low = false;
+  }
   if (group.closed_high && ends_in_air(group.stretches.back().t1 + beyond) &&
-      group.stretches.back().r1 > point)
+      group.stretches.back().r1 > point) {
     group.closed_high = false;
+  }
 }
 
 /// Does the product, turned, stand in the way of a drill along Z, beyond the air before its mouth?
@@ -168,8 +174,9 @@ bool is_blocked_along_z(const Envelope& envelope, const Eigen::Vector3d& mouth, 
   std::vector<std::array<double, 2>> met;  // along the way out
   for (const units::Cell& cell : envelope.shadow().cells) {
     if (units::range(cell.inner, cell.z0, cell.z1).min > r + beside ||
-        units::range(cell.outer, cell.z0, cell.z1).max < r - beside)
+        units::range(cell.outer, cell.z0, cell.z1).max < r - beside) {
       continue;
+    }
     const double a = sense * (cell.z0 - mouth.z()), b = sense * (cell.z1 - mouth.z());
     met.push_back({std::min(a, b), std::max(a, b)});
   }
@@ -186,8 +193,9 @@ bool is_blocked_along_z(const Envelope& envelope, const Eigen::Vector3d& mouth, 
 /// The same for any direction, by places on the axis: a bore's other wall is met.
 bool is_blocked(const Envelope& envelope, const Eigen::Vector3d& mouth, double R,
                 const Eigen::Vector3d& outwards) {
-  if (std::abs(outwards.z()) > along_z)
+  if (std::abs(outwards.z()) > along_z) {
     return is_blocked_along_z(envelope, mouth, R, outwards.z() > 0 ? 1 : -1);
+  }
   constexpr int steps = 400;
   const units::Box box = units::box(envelope.shadow());
   const double far = 2 * box.r1 + box.z1 - box.z0;
@@ -219,8 +227,9 @@ bool narrows(const Group& group) {
   double end = -HUGE_VAL;
   double r = HUGE_VAL;
   for (const Stretch& one : group.stretches) {
-    if (one.t0 < end - same_radius || one.r0 > r + same_radius || one.r1 > one.r0 + same_radius)
+    if (one.t0 < end - same_radius || one.r0 > r + same_radius || one.r1 > one.r0 + same_radius) {
       return false;
+    }
     end = one.t1;
     r = one.r1;
   }
@@ -238,8 +247,9 @@ void direct(const Envelope& envelope, Group& group) {
   const Eigen::Vector3d low = group.axis.point + group.stretches.front().t0 * d;
   const Eigen::Vector3d high = group.axis.point + group.stretches.back().t1 * d;
   const bool is_along_z = std::abs(d.z()) > along_z;
-  if (is_along_z ? d.z() < 0 : high.head<2>().norm() > low.head<2>().norm() + same_radius)
+  if (is_along_z ? d.z() < 0 : high.head<2>().norm() > low.head<2>().norm() + same_radius) {
     turn_round(group);
+  }
   Group other = group;
   turn_round(other);
   const bool is_wider_behind = narrows(other) && !narrows(group);

@@ -29,8 +29,9 @@ public:
   PlaneCut(const Placed& part, const TurnedFaces& turned, int number) : part_(part) {
     const Face& face = part.model().faces[static_cast<std::size_t>(number)];
     direction_ = Eigen::Vector3d::UnitZ().cross(face.surface.axis).normalized();
-    for (const std::vector<EdgeUse>& loop : face.loops)
+    for (const std::vector<EdgeUse>& loop : face.loops) {
       for (const EdgeUse& use : loop) add(use.edge, turned, number);
+    }
     std::sort(events.begin(), events.end());
     z0 = events.front();
     z1 = events.back();
@@ -39,8 +40,9 @@ public:
   void at(double z, std::vector<Interval>& found) const override {
     found.clear();
     std::vector<Crossing> points;
-    for (const Piece& piece : pieces_)
+    for (const Piece& piece : pieces_) {
       if ((piece.z0 < z) != (piece.z1 < z)) points.push_back(crossing(piece, z));
+    }
     if (points.empty()) return;
     std::sort(points.begin(), points.end(),
               [](const Crossing& p, const Crossing& q) { return p.along < q.along; });
@@ -73,11 +75,15 @@ private:
     events.insert(events.end(),
                   {extent.low, extent.high, edge.points.front().z(), edge.points.back().z()});
     Border border{number, {}};
-    for (const Meridian& meridian : turned.meridians)
-      if (meridian.face != face && std::ranges::find(edge.faces, meridian.face) != edge.faces.end())
+    for (const Meridian& meridian : turned.meridians) {
+      if (meridian.face != face &&
+          std::ranges::find(edge.faces, meridian.face) != edge.faces.end()) {
         border.beyond.push_back(&meridian);
-    for (std::size_t i = 0; i + 1 < edge.points.size(); ++i)
+      }
+    }
+    for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
       pieces_.push_back({borders_.size(), i, edge.points[i].z(), edge.points[i + 1].z()});
+    }
     borders_.push_back(std::move(border));
   }
 
@@ -131,8 +137,9 @@ public:
     const auto after =
         std::lower_bound(pieces_.begin(), pieces_.end(), z,
                          [](const Piece& piece, double value) { return piece.z0 < value; });
-    for (auto i = static_cast<std::size_t>(after - pieces_.begin()); i-- > 0 && highest_[i] >= z;)
+    for (auto i = static_cast<std::size_t>(after - pieces_.begin()); i-- > 0 && highest_[i] >= z;) {
       if (pieces_[i].z1 >= z) add(pieces_[i], z, found);
+    }
     merge(found, snap);
   }
 
@@ -171,10 +178,11 @@ void merge(std::vector<Interval>& intervals, double gap) {
             [](const Interval& p, const Interval& q) { return p.r0 < q.r0; });
   std::size_t count = 0;
   for (const Interval& one : intervals) {
-    if (count > 0 && one.r0 <= intervals[count - 1].r1 + gap)
+    if (count > 0 && one.r0 <= intervals[count - 1].r1 + gap) {
       intervals[count - 1].r1 = std::max(intervals[count - 1].r1, one.r1);
-    else
+    } else {
       intervals[count++] = one;
+    }
   }
   intervals.resize(count);
 }

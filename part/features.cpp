@@ -28,9 +28,11 @@ double nominal(const units::Hole& hole) {
 
 double nominal(const units::MilledFace& face) {
   Eigen::Vector3d twice_area = Eigen::Vector3d::Zero();
-  for (const std::vector<units::FaceEdge>& loop : face.outline)
-    for (const units::FaceEdge& row : loop)
+  for (const std::vector<units::FaceEdge>& loop : face.outline) {
+    for (const units::FaceEdge& row : loop) {
       twice_area += (row.start - face.point).cross(row.end - face.point);
+    }
+  }
   return std::max(twice_area.norm() / 2 * face.depth, 1e-9);
 }
 
@@ -100,8 +102,9 @@ struct Shares {
 void share_out(const Lump& lump, const Shares& shares) {
   double sum = 0;
   for (const double weight : shares.weights) sum += weight;
-  for (std::size_t i = 0; i < shares.volumes.size(); ++i)
+  for (std::size_t i = 0; i < shares.volumes.size(); ++i) {
     *shares.volumes[i] = lump.volume * shares.weights[i] / sum;
+  }
 }
 
 template <class T>
@@ -119,10 +122,11 @@ Features features_of(const Placed& part, const Envelope& envelope, const std::ve
     std::vector<units::Remainder> remainders;
     for (const std::vector<int>& group : remaining_groups(part.model(), lump, bores)) {
       Pocket pocket = pocket_of(part, envelope, group);
-      if (pocket.face)
+      if (pocket.face) {
         faces.push_back(std::move(*pocket.face));
-      else
+      } else {
         remainders.push_back(remainder_of(part.model(), group, std::move(pocket.why)));
+      }
     }
     Shares shares;
     for (Bore& bore : bores) {

@@ -37,21 +37,25 @@ public:
   std::vector<double> events() const {
     std::vector<double> z;
     for (const auto& cut : cuts_) z.insert(z.end(), cut->events.begin(), cut->events.end());
-    for (const Meridian& meridian : turned_.meridians)
+    for (const Meridian& meridian : turned_.meridians) {
       z.insert(z.end(), {meridian.z0, meridian.z1});
+    }
     std::sort(z.begin(), z.end());
     std::vector<double> apart;
-    for (const double one : z)
+    for (const double one : z) {
       if (apart.empty() || one - apart.back() > 1e-6) apart.push_back(one);
+    }
     return apart;
   }
 
   Slab slab(double z0, double z1) const {
     Slab found{z0, z1, {}, {}};
-    for (const auto& cut : cuts_)
+    for (const auto& cut : cuts_) {
       if (cut->z0 < z1 - 1e-9 && cut->z1 > z0 + 1e-9) found.cuts.push_back(cut.get());
-    for (const Meridian& meridian : turned_.meridians)
+    }
+    for (const Meridian& meridian : turned_.meridians) {
       if (meridian.z0 <= z1 && meridian.z1 >= z0) found.meridians.push_back(&meridian);
+    }
     return found;
   }
 
@@ -110,8 +114,9 @@ private:
       if (!is_even && !is_short) return divide(z0, z1);
     }
     if (!is_even && is_empty) return hull(z0, z1, cuts);
-    if (!is_even)
+    if (!is_even) {
       for (auto& cut : cuts) cut = {{cut.front().r0, cut.back().r1}};
+    }
     std::vector<Image::Cell> made;
     for (std::size_t k = 0; k < cuts[0].size(); ++k) {
       Values r0{}, r1{};
@@ -120,8 +125,10 @@ private:
         r1[i] = cuts[i][k].r1;
       }
       Image::Cell cell{.z0 = z0, .z1 = z1, .inner = {}, .outer = {}};
-      if (!side(z0, z1, r0, -1, is_short, cell.inner) || !side(z0, z1, r1, 1, is_short, cell.outer))
+      if (!side(z0, z1, r0, -1, is_short, cell.inner) ||
+          !side(z0, z1, r1, 1, is_short, cell.outer)) {
         return divide(z0, z1);
+      }
       made.push_back(cell);
     }
     image_.cells.insert(image_.cells.end(), made.begin(), made.end());
@@ -195,9 +202,11 @@ private:
 Image image_of(const Placed& part, const TurnedFaces& turned, const std::vector<int>& free) {
   const Model& model = part.model();
   std::vector<int> meshed;
-  for (const int number : free)
-    if (model.faces[static_cast<std::size_t>(number)].surface.kind != SurfaceKind::Plane)
+  for (const int number : free) {
+    if (model.faces[static_cast<std::size_t>(number)].surface.kind != SurfaceKind::Plane) {
       meshed.push_back(number);
+    }
+  }
   const double size = (model.high - model.low).norm();
   const double deflection = std::clamp(mesh_share * size, finest_mesh, coarsest_mesh);
   std::vector<Solid::Triangle> triangles;

@@ -205,6 +205,7 @@ TColStd_Array1OfReal crossings(const gp_Lin2d& line, double first, double last,
 void add_crossings(const Geom2dAdaptor_Curve& curve, const SurfaceSpans& knots,
                    std::vector<double>& limits) {
   std::vector<gp_Pnt2d> places;
+  places.reserve(limits.size());
   for (const double t : limits) places.push_back(curve.Value(t));
   std::vector<double> found;
   const auto add = [&](const std::vector<double>& values, int axis) {
@@ -272,8 +273,9 @@ Sums integral_along(const TopoDS_Face& face, const Integrand& integrand, double 
       reach.high = std::max(reach.high, p.X());
       integrand(p, d, sign * weight, sums);
     };
-    for (std::size_t i = 0; i + 1 < limits.size(); ++i)
+    for (std::size_t i = 0; i + 1 < limits.size(); ++i) {
       at_gauss_points(limits[i], limits[i + 1], add, limits.size());
+    }
   });
   return sums;
 }
@@ -281,8 +283,9 @@ Sums integral_along(const TopoDS_Face& face, const Integrand& integrand, double 
 void store(const Sums& sums, Face& result) {
   result.area = std::abs(sums(0));
   result.normal_integral = sums.segment<3>(1);
-  for (int i = 0; i < 3; ++i)
+  for (int i = 0; i < 3; ++i) {
     result.moment_integral.row(i) = sums.segment<3>(4 + 3 * i).transpose();
+  }
 }
 
 Sums density(const BRepAdaptor_Surface& surface, double u, double v) {

@@ -44,10 +44,12 @@ bool is_end(const units::Region& S, const Shoulder& shoulder) {
 std::vector<char> milled_faces(const Placed& part, const TurnedFaces& turned,
                                const units::Region& S) {
   std::vector<char> is_milled(part.model().faces.size(), 1);
-  for (const Meridian& one : turned.meridians)
+  for (const Meridian& one : turned.meridians) {
     if (is_side(S, one)) is_milled[static_cast<std::size_t>(one.face)] = 0;
-  for (const Shoulder& one : turned.shoulders)
+  }
+  for (const Shoulder& one : turned.shoulders) {
     if (is_end(S, one)) is_milled[static_cast<std::size_t>(one.face)] = 0;
+  }
   return is_milled;
 }
 
@@ -75,9 +77,11 @@ int root_of(std::vector<int>& parent, int i) {
 /// Boundary edges of a lump with the sense in which its faces use them.
 std::map<int, int> open_edges(const Model& model, const Lump& lump) {
   std::map<int, int> sense;
-  for (const int face : lump.faces)
-    for (const std::vector<EdgeUse>& loop : model.faces[static_cast<std::size_t>(face)].loops)
+  for (const int face : lump.faces) {
+    for (const std::vector<EdgeUse>& loop : model.faces[static_cast<std::size_t>(face)].loops) {
       for (const EdgeUse& use : loop) sense[use.edge] += use.is_reversed ? -1 : 1;
+    }
+  }
   std::erase_if(sense, [](const auto& entry) { return entry.second == 0; });
   return sense;
 }
@@ -109,9 +113,10 @@ double cut_angle(const Model& model, const std::map<int, int>& edges) {
 void measure(const Placed& part, const Envelope& envelope, Lump& lump) {
   const Model& model = part.model();
   double volume = 0;
-  for (const int face : lump.faces)
+  for (const int face : lump.faces) {
     volume -= flux(model.faces[static_cast<std::size_t>(face)], Eigen::Vector3d::Zero(),
                    Eigen::Vector3d::UnitZ());
+  }
   const std::map<int, int> mouth = open_edges(model, lump);
   const double cut = cut_angle(model, mouth);
   for (const auto& [number, sense] : mouth) {
@@ -123,8 +128,9 @@ void measure(const Placed& part, const Envelope& envelope, Lump& lump) {
       if (envelope.is_inside(edge.points[i], near_envelope)) lump.is_measured = false;
       if (i == 0 || radius_of(edge.points[i]) < on_envelope) continue;
       // All round the axis: the end of E belongs to the lump, which its mouth does not tell.
-      if (std::abs(theta(edge.points[i]) - theta(edge.points[i - 1])) > pi)
+      if (std::abs(theta(edge.points[i]) - theta(edge.points[i - 1])) > pi) {
         lump.is_measured = false;
+      }
     }
     const double term =
         part.integral(number, [&](const Eigen::Vector3d& p, const Eigen::Vector3d& dp) {
@@ -140,9 +146,11 @@ void measure(const Placed& part, const Envelope& envelope, Lump& lump) {
 
 bool Envelope::is_inside(const Eigen::Vector3d& p, double margin) const {
   const double r = radius_of(p);
-  for (const double dr : {-margin, margin})
-    for (const double dz : {-margin, margin})
+  for (const double dr : {-margin, margin}) {
+    for (const double dz : {-margin, margin}) {
       if (!covers(shadow_, std::abs(r + dr), p.z() + dz)) return false;
+    }
+  }
   return true;
 }
 
@@ -177,16 +185,19 @@ std::vector<Lump> lumps_of(const Placed& part, const TurnedFaces& turned,
   for (const Edge& edge : model.edges) {
     if (edge.faces.size() != 2 || edge.is_seam) continue;
     if (is_milled[static_cast<std::size_t>(edge.faces[0])] == 0 ||
-        is_milled[static_cast<std::size_t>(edge.faces[1])] == 0)
+        is_milled[static_cast<std::size_t>(edge.faces[1])] == 0) {
       continue;
+    }
     if (!runs_inside(edge, envelope)) continue;
     parent[static_cast<std::size_t>(root_of(parent, edge.faces[0]))] =
         root_of(parent, edge.faces[1]);
   }
   std::map<int, Lump> lumps;
-  for (std::size_t i = 0; i < model.faces.size(); ++i)
-    if (is_milled[i] != 0)
+  for (std::size_t i = 0; i < model.faces.size(); ++i) {
+    if (is_milled[i] != 0) {
       lumps[root_of(parent, static_cast<int>(i))].faces.push_back(static_cast<int>(i));
+    }
+  }
   std::vector<Lump> found;
   for (auto& [root, lump] : lumps) {
     measure(part, envelope, lump);

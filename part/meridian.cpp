@@ -53,8 +53,9 @@ bool is_turned_face(const Face& face) {
 
 template <class F>
 void for_each_edge(const Face& face, const F& f) {
-  for (const std::vector<EdgeUse>& loop : face.loops)
+  for (const std::vector<EdgeUse>& loop : face.loops) {
     for (const EdgeUse& use : loop) f(use.edge);
+  }
 }
 
 Placed::Extent extent_of(const Placed& part, const Face& face) {
@@ -123,10 +124,12 @@ std::vector<Angles> reached(const Placed& part, const Face& face, double R, doub
       angles.push_back(
           angles.empty() ? angle : angles.back() + std::remainder(angle - angles.back(), 2 * pi));
     }
-    for (std::size_t i = 0; i + 1 < angles.size(); ++i)
+    for (std::size_t i = 0; i + 1 < angles.size(); ++i) {
       steps.push_back({std::min(angles[i], angles[i + 1]), std::max(angles[i], angles[i + 1])});
-    if (!edge.is_seam && edge.kind != CurveKind::Line)
+    }
+    if (!edge.is_seam && edge.kind != CurveKind::Line) {
       add_extremes(part, number, angles, angle_at, steps);
+    }
   });
   for (auto& step : steps) {  // into [-pi/2, 3 pi/2), the order of the halves
     const double turns = std::floor((step[0] + pi / 2 + 1e-9) / (2 * pi));
@@ -135,10 +138,11 @@ std::vector<Angles> reached(const Placed& part, const Face& face, double R, doub
   std::sort(steps.begin(), steps.end());
   std::vector<Angles> merged;
   for (const auto& step : steps) {
-    if (!merged.empty() && step[0] <= merged.back()[1] + 1e-7)
+    if (!merged.empty() && step[0] <= merged.back()[1] + 1e-7) {
       merged.back()[1] = std::max(merged.back()[1], step[1]);
-    else
+    } else {
       merged.push_back(step);
+    }
   }
   return merged;
 }
@@ -167,8 +171,9 @@ void add_half(int number, double face_side, const Point& centre, double tube, in
   const double to = std::min(v1, side > 0 ? pi / 2 : 3 * pi / 2);
   if (to - from < 1e-9) return;
   const auto z_at = [&](double v) {
-    for (const double pole : {-pi / 2, pi / 2, 3 * pi / 2})
+    for (const double pole : {-pi / 2, pi / 2, 3 * pi / 2}) {
       if (std::abs(v - pole) < 1e-7) return centre.z + tube * std::round(std::sin(pole));
+    }
     return centre.z + tube * std::sin(v);
   };
   Meridian one;
@@ -223,6 +228,7 @@ std::vector<int> edges_along(const Placed& part, const Face& face) {
   });
   std::ranges::stable_sort(runs, std::ranges::greater(), &Run::along);
   std::vector<int> edges;
+  edges.reserve(runs.size());
   for (const Run& run : runs) edges.push_back(run.edge);
   return edges;
 }

@@ -55,8 +55,9 @@ bool is_across(const Surface& plane, const Surface& wall) {
 
 bool is_coaxial(const Surface& a, const Surface& wall) {
   if (a.kind == SurfaceKind::Plane || a.kind == SurfaceKind::Other) return false;
-  if (a.kind == SurfaceKind::Sphere)
+  if (a.kind == SurfaceKind::Sphere) {
     return (a.origin - wall.origin).cross(wall.axis).norm() < same_place;
+  }
   return is_same_axis({a.origin, a.axis}, {wall.origin, wall.axis});
 }
 
@@ -166,8 +167,9 @@ void measure_corners(Mouth& mouth, const Neighbours& corners, const Vector3d& mi
   centre /= static_cast<double>(corners.size());
   Vector3d far = Vector3d::Zero();
   std::vector<Vector3d> from_centre;
-  for (const Face* face : corners)
+  for (const Face* face : corners) {
     from_centre.push_back(face->surface.origin - face->surface.origin.dot(d) * d - centre);
+  }
   const double r = corners[0]->surface.radius;
   mouth.radius = r;
   if (corners.size() == 2) {
@@ -262,8 +264,9 @@ std::vector<Mouth> mouths_of(const Model& model) {
       const bool is_end = std::ranges::all_of(chain, [&](const Rim& rim) {
         return is_across(model.faces[index(rim.neighbour)].surface, model.faces[i].surface);
       });
-      if (!is_end && !is_seen_from_hole(model, wall, chain))
+      if (!is_end && !is_seen_from_hole(model, wall, chain)) {
         mouths.push_back(classified(model, wall, chain));
+      }
     }
   }
   return mouths;

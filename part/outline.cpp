@@ -24,8 +24,9 @@ std::vector<FaceEdge> rows_of(const Edge& edge, bool is_reversed, const Eigen::V
   const bool is_flat = edge.kind == CurveKind::Circle && edge.axis.cross(n).norm() < 1e-6;
   if (edge.kind != CurveKind::Line && !is_flat) {
     std::vector<FaceEdge> rows;
-    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
       rows.push_back({.start = points[i], .end = points[i + 1]});
+    }
     return rows;
   }
   FaceEdge row{.start = points.front(), .end = points.back()};
@@ -114,8 +115,9 @@ std::vector<std::vector<FaceEdge>> through_outline(const Placed& part,
              part.model().edges[static_cast<std::size_t>(use.edge)].points) {
           const Eigen::Vector3d p = dropped(point, n, bottom);
           if (std::none_of(ends.begin(), ends.end(),
-                           [&](const auto& q) { return (p - q).norm() < same_point; }))
+                           [&](const auto& q) { return (p - q).norm() < same_point; })) {
             ends.push_back(p);
+          }
         }
       }
     }
@@ -128,8 +130,9 @@ std::vector<std::vector<FaceEdge>> through_outline(const Placed& part,
       const Eigen::Vector3d u = (ends.front() - row.centre).normalized();
       const Eigen::Vector3d v = n.cross(u);
       Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-      for (const Eigen::Vector3d& p : ends)
+      for (const Eigen::Vector3d& p : ends) {
         sum += Eigen::Vector2d((p - row.centre).dot(u), (p - row.centre).dot(v));
+      }
       const double middle = std::atan2(sum.y(), sum.x());
       const auto angle = [&](const Eigen::Vector3d& p) {
         const Eigen::Vector3d d = p - row.centre;

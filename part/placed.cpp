@@ -77,8 +77,9 @@ Model moved(const geometry::Frame& frame, const Model& model) {
   result.has_cavity = model.has_cavity;
   for (const Face& face : model.faces) result.faces.push_back(moved(frame, face));
   for (const Edge& edge : model.edges) result.edges.push_back(moved(frame, edge));
-  for (const Eigen::Vector3d& vertex : model.vertices)
+  for (const Eigen::Vector3d& vertex : model.vertices) {
     result.vertices.push_back(geometry::to_local(frame, vertex));
+  }
   result.low = Eigen::Vector3d::Constant(HUGE_VAL);
   result.high = Eigen::Vector3d::Constant(-HUGE_VAL);
   for (const Edge& edge : result.edges) {
@@ -99,9 +100,12 @@ std::optional<Axis> turning_axis(const Model& model) {
     if (!has_axis(face.surface)) continue;
     const Axis axis{face.surface.origin, face.surface.axis};
     double weight = 0;
-    for (const Face& other : model.faces)
-      if (has_axis(other.surface) && is_same_axis(axis, {other.surface.origin, other.surface.axis}))
+    for (const Face& other : model.faces) {
+      if (has_axis(other.surface) &&
+          is_same_axis(axis, {other.surface.origin, other.surface.axis})) {
         weight += other.area;
+      }
+    }
     if (weight <= most * (1 + 1e-12)) continue;
     most = weight;
     best = &face;
@@ -123,9 +127,11 @@ geometry::Frame turning_frame(const Model& model, const Axis& axis) {
   frame.axes.col(2) = z;
   frame.origin = axis.point;
   double low = HUGE_VAL;
-  for (const Edge& edge : model.edges)
-    for (const Eigen::Vector3d& point : edge.points)
+  for (const Edge& edge : model.edges) {
+    for (const Eigen::Vector3d& point : edge.points) {
       low = std::min(low, (point - axis.point).dot(z));
+    }
+  }
   frame.origin += low * z;
   return frame;
 }
@@ -138,8 +144,9 @@ Placed::Placed(Solid solid, const geometry::Frame& frame)
 
 std::vector<Solid::Triangle> Placed::mesh(std::span<const int> faces, double deflection) const {
   std::vector<Solid::Triangle> triangles = solid_.mesh(faces, deflection);
-  for (Solid::Triangle& triangle : triangles)
+  for (Solid::Triangle& triangle : triangles) {
     for (Eigen::Vector3d& corner : triangle.corners) corner = geometry::to_local(frame_, corner);
+  }
   return triangles;
 }
 

@@ -81,12 +81,14 @@ std::vector<Eigen::Vector3d> directions(const Placed& part, const std::vector<in
 
 std::vector<Eigen::Vector3d> points_of(const Placed& part, const std::vector<int>& faces) {
   std::vector<Eigen::Vector3d> points;
-  for (const int number : faces)
-    for (const std::vector<EdgeUse>& loop : face_at(part, number).loops)
+  for (const int number : faces) {
+    for (const std::vector<EdgeUse>& loop : face_at(part, number).loops) {
       for (const EdgeUse& use : loop) {
         const Edge& edge = part.model().edges[static_cast<std::size_t>(use.edge)];
         points.insert(points.end(), edge.points.begin(), edge.points.end());
       }
+    }
+  }
   return points;
 }
 
@@ -109,13 +111,15 @@ struct Reach {
 
 Reach reach(const Placed& part, const std::vector<int>& faces, const Eigen::Vector3d& d) {
   Reach found;
-  for (const int number : faces)
-    for (const std::vector<EdgeUse>& loop : face_at(part, number).loops)
+  for (const int number : faces) {
+    for (const std::vector<EdgeUse>& loop : face_at(part, number).loops) {
       for (const EdgeUse& use : loop) {
         const Placed::Extent e = part.extent(use.edge, d);
         found.low = std::min(found.low, e.low);
         found.high = std::max(found.high, e.high);
       }
+    }
+  }
   return found;
 }
 
@@ -153,8 +157,9 @@ double depth_above(const Placed& part, const Envelope& envelope, const View& vie
   for (const Eigen::Vector3d& p : points) middle += p;
   middle /= static_cast<double>(points.size());
   const std::size_t count = points.size();
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count; ++i) {
     for (const double t : {0.001, 0.5}) points.push_back(points[i] + t * (middle - points[i]));
+  }
   points.push_back(middle);
   const double far = 2 * (part.model().high - part.model().low).norm();
   double depth = 0;
@@ -175,8 +180,9 @@ std::string form_of(const View& view, const std::optional<Gap>& gap, int round_w
 
 std::string refusal(const Placed& part, const std::vector<int>& faces) {
   std::array<int, kinds.size()> count{};
-  for (const int number : faces)
+  for (const int number : faces) {
     ++count[static_cast<std::size_t>(face_at(part, number).surface.kind)];
+  }
   std::string text = "its " + std::to_string(faces.size()) + " faces (";
   bool is_first = true;
   for (std::size_t i = 0; i < kinds.size(); ++i) {

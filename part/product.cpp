@@ -35,16 +35,19 @@ struct Candidate {
 
 std::optional<Axis> axis_of(const Model& model, const std::optional<GivenAxis>& given) {
   if (!given) {
-    if (const std::optional<Axis> found = turning_axis(model)) return found;
-    for (const Face& face : model.faces)  // a ball turns about any axis through its middle
-      if (face.surface.kind == SurfaceKind::Sphere)
+    if (std::optional<Axis> found = turning_axis(model)) return found;
+    for (const Face& face : model.faces) {  // a ball turns about any axis through its middle
+      if (face.surface.kind == SurfaceKind::Sphere) {
         return Axis{face.surface.origin, Eigen::Vector3d::UnitZ()};
+      }
+    }
     return std::nullopt;
   }
   if (given->point) return Axis{*given->point, given->direction};
   const std::optional<Axis> found = turning_axis(model);
-  if (found && found->direction.cross(given->direction).norm() < same_direction)
+  if (found && found->direction.cross(given->direction).norm() < same_direction) {
     return Axis{found->point, given->direction};
+  }
   return Axis{(model.low + model.high) / 2, given->direction};
 }
 
@@ -84,10 +87,11 @@ Candidate chosen(const std::vector<Solid>& solids, const std::optional<GivenAxis
   for (const Solid& solid : solids) {
     std::optional<Candidate> one = candidate(solid, given);
     if (!one) continue;
-    if (one->is_turned() || (given && solids.size() == 1))
+    if (one->is_turned() || (given && solids.size() == 1)) {
       turned.push_back(std::move(*one));
-    else if (!other || one->round_share() > other->round_share())
+    } else if (!other || one->round_share() > other->round_share()) {
       other = std::move(one);
+    }
   }
   if (turned.size() == 1) return std::move(turned.front());
   if (solids.size() > 1) {
@@ -114,8 +118,9 @@ bool is_hole_wall(const Model& model, const Face& face) {
     if (other.side < 0 && other.surface.kind == face.surface.kind &&
         std::abs(other.surface.radius - face.surface.radius) < same_place &&
         is_same_axis({other.surface.origin, other.surface.axis},
-                     {face.surface.origin, face.surface.axis}))
+                     {face.surface.origin, face.surface.axis})) {
       sweep += other.sweep;
+    }
   }
   return sweep > full_turn;
 }
@@ -123,8 +128,9 @@ bool is_hole_wall(const Model& model, const Face& face) {
 units::Region shadow_of(const Candidate& one) {
   const Model& model = one.part.model();
   std::vector<char> is_shoulder(model.faces.size(), 0);
-  for (const Shoulder& shoulder : one.turned.shoulders)
+  for (const Shoulder& shoulder : one.turned.shoulders) {
     is_shoulder[static_cast<std::size_t>(shoulder.face)] = 1;
+  }
   std::vector<int> free;
   for (std::size_t i = 0; i < model.faces.size(); ++i) {
     if (one.turned.is_coaxial[i] != 0 || is_shoulder[i] != 0) continue;
@@ -143,16 +149,19 @@ void measure_rest(const Model& model, double milled, std::vector<Lump>& lumps) {
     return sum;
   };
   for (const Lump& lump : lumps) {
-    if (lump.is_measured)
+    if (lump.is_measured) {
       rest -= lump.volume;
-    else
+    } else {
       area += area_of(lump);
+    }
   }
   // Mouths lie off the envelope by the file's tolerance: what that makes is shared by all.
-  if (area <= 0 && std::abs(rest) < edge_noise * milled)
+  if (area <= 0 && std::abs(rest) < edge_noise * milled) {
     for (Lump& lump : lumps) lump.volume *= milled / (milled - rest);
-  for (Lump& lump : lumps)
+  }
+  for (Lump& lump : lumps) {
     if (!lump.is_measured) lump.volume = std::max(rest, 0.0) * area_of(lump) / area;
+  }
 }
 
 /// Twice the farthest that any edge reaches from the axis along d; only edges that come near it are
@@ -235,9 +244,10 @@ TurnedPart read_product(std::string_view step, const std::optional<GivenAxis>& a
     const std::vector<Solid> solids = read_step(step);
     const Candidate one = chosen(solids, axis);
     TurnedPart found{product_of(one, axis), one.part.frame()};
-    if (solids.size() > 1)
+    if (solids.size() > 1) {
       found.product.notes.push_back("of " + std::to_string(solids.size()) +
                                     " solids the only turned one was taken");
+    }
     return found;
   });
 }

@@ -31,8 +31,9 @@ std::optional<Curve> circle_through(const Point& a, const Point& b, const Point&
 }
 
 double deviation(const Curve& curve, const Point& p) {
-  if (units::is_arc(curve))
+  if (units::is_arc(curve)) {
     return std::abs(std::hypot(p.z - curve.a.z, p.r - curve.a.r) - curve.radius);
+  }
   const double dz = curve.b.z - curve.a.z;
   const double dr = curve.b.r - curve.a.r;
   return std::abs((p.z - curve.a.z) * dr - (p.r - curve.a.r) * dz) / std::hypot(dz, dr);
@@ -43,8 +44,9 @@ std::optional<Curve> piece(std::span<const Point> points, double tolerance) {
   const Point& last = points.back();
   if (std::abs(last.z - first.z) < across) return std::nullopt;
   const bool rises = last.z > first.z;
-  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     if ((points[i + 1].z - points[i].z) * (rises ? 1 : -1) < -across) return std::nullopt;
+  }
   const auto fits = [&](const Curve& curve) {
     return std::all_of(points.begin(), points.end(),
                        [&](const Point& p) { return deviation(curve, p) <= tolerance; });
@@ -89,8 +91,9 @@ std::vector<FittedPiece> fitted_along(const std::function<Point(double t)>& curv
   constexpr std::size_t fewest = 64, most = 1024;
   constexpr double between = 1.1;  // of the tolerance, for points that were not fitted
   std::vector<Point> points;
-  for (std::size_t i = 0; i <= fewest; ++i)
+  for (std::size_t i = 0; i <= fewest; ++i) {
     points.push_back(curve(static_cast<double>(i) / fewest));
+  }
   for (std::size_t n = fewest;; n *= 2) {
     std::vector<FittedPiece> pieces = fitted(points, tolerance);
     if (n == most) return pieces;
@@ -101,8 +104,9 @@ std::vector<FittedPiece> fitted_along(const std::function<Point(double t)>& curv
     }
     denser.push_back(points.back());
     const bool fits = std::ranges::all_of(pieces, [&](const FittedPiece& piece) {
-      for (std::size_t i = piece.first; i < piece.last; ++i)
+      for (std::size_t i = piece.first; i < piece.last; ++i) {
         if (deviation(piece.curve, denser[2 * i + 1]) > between * tolerance) return false;
+      }
       return true;
     });
     if (fits) return pieces;

@@ -50,8 +50,9 @@ bool fits_cylinder(std::span<const Sample> samples, Surface& found) {
   for (const Sample& sample : samples) spread += sample.normal * sample.normal.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
   const Eigen::Vector3d a = solver.eigenvectors().col(0);
-  for (const Sample& sample : samples)
+  for (const Sample& sample : samples) {
     if (std::abs(sample.normal.dot(a)) > same_normal) return false;
+  }
   const Eigen::Vector3d x = solver.eigenvectors().col(1);
   const Eigen::Vector3d y = a.cross(x);
   Eigen::MatrixXd A(2 * static_cast<Eigen::Index>(samples.size()), 3);
@@ -85,8 +86,9 @@ bool fits_cone(std::span<const Sample> samples, Surface& found) {
   const Eigen::Vector3d apex = solver.solve(b);
   if ((N * apex - b).lpNorm<Eigen::Infinity>() > same_surface) return false;
   const Eigen::Vector3d way = solver.solve(Eigen::VectorXd::Ones(N.rows()));
-  if ((N * way - Eigen::VectorXd::Ones(N.rows())).lpNorm<Eigen::Infinity>() > same_normal)
+  if ((N * way - Eigen::VectorXd::Ones(N.rows())).lpNorm<Eigen::Infinity>() > same_normal) {
     return false;
+  }
   found.kind = SurfaceKind::Cone;
   found.axis = way.normalized();
   const double along = (middle(samples) - apex).dot(found.axis);

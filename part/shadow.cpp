@@ -67,8 +67,9 @@ private:
     for (const Shoulder& one : turned_.shoulders) limits.push_back(one.z);
     std::sort(limits.begin(), limits.end());
     std::vector<double> clustered;
-    for (const double z : limits)
+    for (const double z : limits) {
       if (clustered.empty() || z - clustered.back() > same) clustered.push_back(z);
+    }
     return clustered;
   }
 
@@ -80,10 +81,12 @@ private:
   /// Divides where curves cross, so that their order holds within a slab.
   void add_slabs(double z0, double z1) {
     std::vector<const Curve*> curves;
-    for (const Meridian& one : turned_.meridians)
+    for (const Meridian& one : turned_.meridians) {
       if (spans(one, z0, z1)) curves.push_back(&one.curve);
-    for (const Image::Cell& one : image_.cells)
+    }
+    for (const Image::Cell& one : image_.cells) {
       if (spans(one, z0, z1)) curves.insert(curves.end(), {&one.inner, &one.outer});
+    }
     std::vector<double> cuts{z0, z1};
     for (std::size_t i = 0; i < curves.size(); ++i) {
       for (std::size_t j = i + 1; j < curves.size(); ++j) {
@@ -104,9 +107,11 @@ private:
     const double zm = std::midpoint(z0, z1);
     std::vector<Line> lines = lines_of(z0, z1, zm);
     std::vector<std::array<double, 2>> covered;
-    for (const Image::Cell& one : image_.cells)
-      if (spans(one, z0, z1))
+    for (const Image::Cell& one : image_.cells) {
+      if (spans(one, z0, z1)) {
         covered.push_back({units::radius_at(one.inner, zm), units::radius_at(one.outer, zm)});
+      }
+    }
     Slab slab{z0, z1, {}};
     const Line axis{&axis_curve(), 0};
     for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -119,10 +124,11 @@ private:
         return one[0] - same < rm && rm < one[1] + same;
       });
       const bool is_hair = i > 0 && outer.rm - inner.rm < visible;
-      if (is_shown || is_hair || inner.above || outer.below)
+      if (is_shown || is_hair || inner.above || outer.below) {
         gap.fill = Fill::Material;
-      else if (inner.below || outer.above)
+      } else if (inner.below || outer.above) {
         gap.fill = Fill::Air;
+      }
       slab.gaps.push_back(gap);
     }
     slabs_.push_back(std::move(slab));
@@ -215,8 +221,9 @@ private:
     for (std::size_t first = 0; first < slabs_.size();) {
       std::size_t end = first;
       while (end < slabs_.size() && void_size(slabs_[end]) > 0 &&
-             (end == first || slabs_[end].z0 - slabs_[end - 1].z1 < same))
+             (end == first || slabs_[end].z0 - slabs_[end - 1].z1 < same)) {
         ++end;
+      }
       if (end == first) {
         ++first;
         continue;
@@ -234,21 +241,24 @@ private:
       if (is_bore(slabs_[i], void_size(slabs_[i]))) continue;
       double keep = 0;  // of the bores beyond, seen from the open end, that have no other way out
       if (open_low && !reaches(i, end, open_high)) keep = widest_bore(i, end);
-      if (open_high && !reaches_low(i, first, open_low))
+      if (open_high && !reaches_low(i, first, open_low)) {
         keep = std::max(keep, widest_bore(first, i));
+      }
       fill(slabs_[i], keep);
     }
   }
 
   /// From slab i upwards only bores to an open end?
   bool reaches(std::size_t i, std::size_t end, bool is_open) const {
-    for (std::size_t k = i + 1; k < end; ++k)
+    for (std::size_t k = i + 1; k < end; ++k) {
       if (!is_bore(slabs_[k], void_size(slabs_[k]))) return true;  // another filled part decides
+    }
     return is_open;
   }
   bool reaches_low(std::size_t i, std::size_t first, bool is_open) const {
-    for (std::size_t k = first; k < i; ++k)
+    for (std::size_t k = first; k < i; ++k) {
       if (!is_bore(slabs_[k], void_size(slabs_[k]))) return true;
+    }
     return is_open;
   }
 
@@ -280,10 +290,13 @@ private:
 
   units::Region region() const {
     units::Overlay cells;
-    for (const Slab& slab : slabs_)
-      for (const Gap& gap : slab.gaps)
-        if (gap.fill == Fill::Material)
+    for (const Slab& slab : slabs_) {
+      for (const Gap& gap : slab.gaps) {
+        if (gap.fill == Fill::Material) {
           cells.cells.push_back({slab.z0, slab.z1, gap.inner, gap.outer, 1});
+        }
+      }
+    }
     // Merges cells side by side and on top of each other, and cuts limits to one another again.
     return units::select(cells, [](std::uint64_t) { return true; });
   }

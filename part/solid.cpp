@@ -120,8 +120,9 @@ Face face_of(const TopoDS_Face& shape) {
   if (is_free) {
     if (const std::optional<Surface> found = recognised(face.samples)) face.surface = *found;
   }
-  if (face.surface.kind == SurfaceKind::Cone && !face.samples.empty())
+  if (face.surface.kind == SurfaceKind::Cone && !face.samples.empty()) {
     face.surface = on_nappe_of(face.samples.front().point, face.surface);
+  }
   integrate(shape, surface, face);
   if (face.surface.kind == SurfaceKind::Plane) {
     face.side = face.normal_integral.dot(face.surface.axis) < 0 ? -1 : 1;
@@ -168,20 +169,23 @@ Edge edge_of(const TopoDS_Edge& shape, const BRepAdaptor_Curve& curve,
   for (const double t : parameters(curve)) edge.points.push_back(vector(curve.Value(t)));
   const TopoDS_Edge forward = TopoDS::Edge(shape.Oriented(TopAbs_FORWARD));
   const TopoDS_Vertex ends[] = {TopExp::FirstVertex(forward), TopExp::LastVertex(forward)};
-  for (std::size_t i = 0; i < 2; ++i)
+  for (std::size_t i = 0; i < 2; ++i) {
     if (!ends[i].IsNull()) edge.vertices[i] = vertices.FindIndex(ends[i]) - 1;
+  }
   return edge;
 }
 
 /// Normal out of the product of a face at an edge's parameter; also for free-form faces.
 Eigen::Vector3d normal_on_edge(const TopoDS_Face& shape, const Face& face, const TopoDS_Edge& edge,
                                double t, const Eigen::Vector3d& point) {
-  if (face.surface.kind != SurfaceKind::Other)
+  if (face.surface.kind != SurfaceKind::Other) {
     return face.side * natural_normal(face.surface, point);
+  }
   double first = 0, last = 0;
   const Handle(Geom2d_Curve) pcurve = BRep_Tool::CurveOnSurface(edge, shape, first, last);
-  if (pcurve.IsNull())
+  if (pcurve.IsNull()) {
     return face.samples.empty() ? Eigen::Vector3d::UnitZ() : face.samples.front().normal;
+  }
   const gp_Pnt2d uv = pcurve->Value(std::lerp(first, last, t));
   const BRepAdaptor_Surface surface(shape, Standard_False);
   return sample_at(surface, shape.Orientation() == TopAbs_REVERSED, uv.X(), uv.Y()).normal;
@@ -195,8 +199,9 @@ public:
   Model run() {
     model_.name = shape_.name;
     model_.has_cavity = shape_.solid.NbChildren() > 1;
-    for (int i = 1; i <= shape_.vertices.Extent(); ++i)
+    for (int i = 1; i <= shape_.vertices.Extent(); ++i) {
       model_.vertices.push_back(vector(BRep_Tool::Pnt(TopoDS::Vertex(shape_.vertices(i)))));
+    }
     for (int i = 1; i <= shape_.edges.Extent(); ++i) {
       const TopoDS_Edge& edge = TopoDS::Edge(shape_.edges(i));
       const auto place = static_cast<std::size_t>(i - 1);
@@ -225,8 +230,9 @@ private:
         Edge& used = model_.edges[static_cast<std::size_t>(edge)];
         if (used.points.empty()) continue;
         loop.push_back({edge, edges.Current().Orientation() == TopAbs_REVERSED});
-        if (std::find(used.faces.begin(), used.faces.end(), number) != used.faces.end())
+        if (std::find(used.faces.begin(), used.faces.end(), number) != used.faces.end()) {
           used.is_seam = true;
+        }
         used.faces.push_back(number);
       }
       if (!loop.empty()) result.loops.push_back(std::move(loop));
@@ -254,9 +260,11 @@ private:
   }
 
   bool is_reversed_in(int face, int edge) const {
-    for (const std::vector<EdgeUse>& loop : model_.faces[static_cast<std::size_t>(face)].loops)
-      for (const EdgeUse& use : loop)
+    for (const std::vector<EdgeUse>& loop : model_.faces[static_cast<std::size_t>(face)].loops) {
+      for (const EdgeUse& use : loop) {
         if (use.edge == edge) return use.is_reversed;
+      }
+    }
     return false;
   }
 
@@ -301,8 +309,9 @@ std::vector<Solid::Triangle> Solid::mesh(std::span<const int> faces, double defl
       if (is_reversed) std::swap(corners[1], corners[2]);
       Triangle triangle;
       triangle.face = number;
-      for (int k = 0; k < 3; ++k)
+      for (int k = 0; k < 3; ++k) {
         triangle.corners[k] = vector(mesh->Node(corners[k]).Transformed(place));
+      }
       triangles.push_back(triangle);
     }
   }
@@ -310,8 +319,9 @@ std::vector<Solid::Triangle> Solid::mesh(std::span<const int> faces, double defl
 }
 
 bool Solid::contains(const Eigen::Vector3d& point) const {
-  if (!shape_->classifier)
+  if (!shape_->classifier) {
     shape_->classifier = std::make_unique<BRepClass3d_SolidClassifier>(shape_->solid);
+  }
   shape_->classifier->Perform({point.x(), point.y(), point.z()}, on_boundary);
   return shape_->classifier->State() == TopAbs_IN;
 }

@@ -38,14 +38,18 @@ void check_envelope(std::string_view text) {
   if (text.substr(0, 3) == mark) text.remove_prefix(3);
   const std::size_t start = text.find_first_not_of(blanks);
   if (start == std::string_view::npos) refuse("the part file is empty");
-  if (text.substr(start, 13) != "ISO-10303-21;" && text.substr(start, 12) != "ISO-10303-21")
+  if (text.substr(start, 13) != "ISO-10303-21;" && text.substr(start, 12) != "ISO-10303-21") {
     refuse("the part file is no STEP file: it does not begin with ISO-10303-21");
-  if (text.find('\0') != std::string_view::npos)
+  }
+  if (text.find('\0') != std::string_view::npos) {
     refuse("the part file is no STEP file: it holds zero bytes");
-  if (text.find("DATA") == std::string_view::npos)
+  }
+  if (text.find("DATA") == std::string_view::npos) {
     refuse("the part file is cut off: it has no DATA section");
-  if (text.find("END-ISO-10303-21") == std::string_view::npos)
+  }
+  if (text.find("END-ISO-10303-21") == std::string_view::npos) {
     refuse("the part file is cut off: END-ISO-10303-21 is missing");
+  }
 }
 
 /// The name of the only PRODUCT of a file; empty when there are several or it is nothing but a
@@ -132,8 +136,9 @@ std::vector<Solid> read_step(std::string_view text) {
     std::vector<Solid> solids;
     if (!shape.IsNull()) {
       const std::string name = product_name(text);
-      for (TopExp_Explorer found(shape, TopAbs_SOLID); found.More(); found.Next())
+      for (TopExp_Explorer found(shape, TopAbs_SOLID); found.More(); found.Next()) {
         solids.emplace_back(shape_of(TopoDS::Solid(found.Current()), name));
+      }
     }
     if (solids.empty()) refuse("the part file holds no solid");
     for (const Solid& solid : solids) check_size(solid.model());

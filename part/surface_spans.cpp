@@ -66,8 +66,9 @@ double weight_ratio(const Geom_BSplineSurface& s, Along along) {
   double least = 1;
   for (int row = 1; row <= rows; ++row) {
     Weights weights;
-    for (int i = 1; i <= columns; ++i)
+    for (int i = 1; i <= columns; ++i) {
       weights.add(along == Along::U ? s.Weight(i, row) : s.Weight(row, i));
+    }
     least = std::min(least, weights.ratio());
   }
   return least;

@@ -100,8 +100,9 @@ void Chunks::with_sample(std::uint32_t index, const RequestId& id, const std::st
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Run& run = chunk.runs[i];
     const jobs::Array& array = answer_.arrays[run.array];
-    for (const std::size_t size : array.shape)
+    for (const std::size_t size : array.shape) {
       shapes[i].push_back(static_cast<std::uint32_t>(size));
+    }
     pieces[i].pointer = borrowed(array.pointer);
     pieces[i].shape._buffer = shapes[i].data();
     pieces[i].shape._length = pieces[i].shape._maximum =
@@ -119,8 +120,9 @@ void Chunks::with_sample(std::uint32_t index, const RequestId& id, const std::st
 bool Assembler::add(const ridgeline_wire_Reply& sample) {
   if (got_.empty()) {
     constexpr std::uint32_t max_chunks = 1U << 20;
-    if (sample.chunk_count == 0 || sample.chunk_count > max_chunks)
+    if (sample.chunk_count == 0 || sample.chunk_count > max_chunks) {
       fail("chunk_count is " + std::to_string(sample.chunk_count));
+    }
     if (sample.numbers > max_numbers) fail("numbers is " + std::to_string(sample.numbers));
     got_.resize(sample.chunk_count);
     documents_.resize(sample.chunk_count);
@@ -130,9 +132,10 @@ bool Assembler::add(const ridgeline_wire_Reply& sample) {
     expected_document_ = sample.document_bytes;
     expected_text_ = sample.text_bytes;
   }
-  if (sample.chunk_count != got_.size() || sample.chunk_index >= got_.size())
+  if (sample.chunk_count != got_.size() || sample.chunk_index >= got_.size()) {
     fail("chunk " + std::to_string(sample.chunk_index) + " of " +
          std::to_string(sample.chunk_count));
+  }
   if (got_[sample.chunk_index]) return false;
   got_[sample.chunk_index] = true;
   documents_[sample.chunk_index] = sample.document;
@@ -156,8 +159,9 @@ void Assembler::add_piece(const ridgeline_wire_Piece& piece) {
     array.values.resize(size);
   }
   const std::uint64_t length = piece.values._length;
-  if (piece.offset > array.values.size() || length > array.values.size() - piece.offset)
+  if (piece.offset > array.values.size() || length > array.values.size() - piece.offset) {
     fail(array.pointer + " ends before its piece");
+  }
   std::copy_n(piece.values._buffer, length,
               array.values.begin() + static_cast<std::ptrdiff_t>(piece.offset));
   numbers_ += length;

@@ -18,8 +18,9 @@ double Latencies::quantile(double q) const {
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < classes_.size() && count_ > 0; ++i) {
     sum += classes_[i];
-    if (static_cast<double>(sum) >= wanted && sum > 0)
+    if (static_cast<double>(sum) >= wanted && sum > 0) {
       return std::min(max_, first * std::pow(ratio, static_cast<double>(i + 1)));
+    }
   }
   return max_;
 }
@@ -54,8 +55,9 @@ void Counters::report(wire::InstanceStatus& status) const {
   status.bytes_sent = bytes_;
   const auto ok = answers_.find("ok");
   status.answers = {{"ok", ok == answers_.end() ? 0 : ok->second}};
-  for (const auto& [code, count] : answers_)
+  for (const auto& [code, count] : answers_) {
     if (code != "ok") status.answers.emplace_back(code, count);
+  }
   status.latency_p50 = latencies_.quantile(0.5);
   status.latency_p99 = latencies_.quantile(0.99);
   status.latency_max = latencies_.max();

@@ -12,18 +12,20 @@ namespace {
 using Json = nlohmann::json;
 
 void require_json(const std::string& kind, const std::string& format) {
-  if (format != "json")
+  if (format != "json") {
     jobs::refuse({.code = ErrorCode::Unsupported,
                   .field = "",
                   .value = format,
                   .limit = "json",
                   .message = "a " + kind + " job has no format \"" + format + "\": ask for json"});
+  }
 }
 
 void require_change(Channel channel) {
-  if (channel != Channel::Change)
+  if (channel != Channel::Change) {
     throw Error(ErrorCode::Unsupported,
                 "what changes the library or the service is taken on the topic ridgeline/change");
+  }
 }
 
 enum class Operation { Status, LogLevel };
@@ -75,8 +77,9 @@ jobs::Answer Dispatch::answer_service_job(const wire::Request& request, Channel 
 Work::Ran Dispatch::answer(const wire::Request& request, Channel channel,
                            const Progress& progress) {
   if (request.unusable) return {jobs::refusal(*request.unusable), {}};
-  if (request.kind == wire::CallKind::Echo)
+  if (request.kind == wire::CallKind::Echo) {
     return {{{{"job", "echo"}, {"status", "ok"}}, {}, request.text}, "echo"};
+  }
   const std::string kind = job_kind(request.text);
   try {
     if (kind == "library") return {answer_library_job(request, channel), kind};

@@ -72,8 +72,9 @@ bool is_change(const Json& document) {
   if (!document.is_object()) return false;
   const std::string_view operation = text_of(document, "operation");
   constexpr std::array<std::string_view, 3> library{"put", "remove", "import"};
-  if (text_of(document, "job") == "library")
+  if (text_of(document, "job") == "library") {
     return std::ranges::find(library, operation) != library.end();
+  }
   return text_of(document, "job") == "service" && operation == "log_level";
 }
 

@@ -37,7 +37,7 @@ void Library::require_writable() const {
 std::optional<Change> Library::get(std::string_view kind, std::string_view name,
                                    std::optional<int> revision) const {
   const std::scoped_lock lock(mutex_);
-  const std::optional<Change> held = held_change(kind, name);
+  std::optional<Change> held = held_change(kind, name);
   if (!revision || (held && held->revision == *revision)) return held;
   Statement row(connection_, select_changes("WHERE kind = ? AND name = ? AND revision = ? "
                                             "ORDER BY time DESC, origin DESC LIMIT 1")
@@ -66,10 +66,11 @@ std::optional<Change> Library::aliased_change(std::string_view kind, std::string
                                  .c_str());
   if (!row.bind(kind).bind(name).step()) return {};
   Change change = intact(file_, row);
-  if (row.step())
+  if (row.step()) {
     throw Error(ErrorCode::BadInput, std::string(kind) + " " + std::string(name) +
                                          " stands for two definitions, \"" + change.name +
                                          "\" and \"" + row.text(1) + "\": change one of them");
+  }
   return change;
 }
 
@@ -157,10 +158,11 @@ void Library::insert(const Change& change, const std::optional<std::string>& ali
   }
   Statement update(connection_, "REPLACE INTO current(kind, name, alias, change) VALUES(?,?,?,?)");
   update.bind(change.kind).bind(change.name);
-  if (alias)
+  if (alias) {
     update.bind(*alias);
-  else
+  } else {
     update.bind(std::optional<std::int64_t>());
+  }
   update.bind(id).run();
 }
 
@@ -173,7 +175,7 @@ Receipt Library::store(const Json& definition, std::string_view request) {
                   "SELECT c.name FROM current u JOIN change c ON c.id = u.change WHERE u.kind = ? "
                   "AND c.removed = 0 AND u.name <> ? AND (u.alias IN (?, ?) OR u.name = ?)");
   const std::string& alias = key.alias ? *key.alias : key.name;
-  if (taken.bind(key.kind).bind(key.name).bind(alias).bind(key.name).bind(alias).step())
+  if (taken.bind(key.kind).bind(key.name).bind(alias).bind(key.name).bind(alias).step()) {
     throw Error(ErrorCode::BadInput,
                 key.kind + " \"" + key.name + "\": number " + alias + " is that of \"" +
                     taken.text(0) + "\"",
@@ -182,6 +184,7 @@ Receipt Library::store(const Json& definition, std::string_view request) {
                  .limit = "a number that no other " + key.kind + " has",
                  .parameter = {},
                  .target = {}});
+  }
 
   Change change{.kind = key.kind,
                 .name = key.name,
@@ -197,8 +200,9 @@ Receipt Library::store(const Json& definition, std::string_view request) {
                 "ON c.id = u.change WHERE u.kind = ? AND u.name = ?");
   if (row.bind(key.kind).bind(key.name).step()) {
     const auto held = static_cast<int>(row.number(0));
-    if (row.number(1) == 0 && row.text(2) == change.document)
+    if (row.number(1) == 0 && row.text(2) == change.document) {
       return {key.kind, key.name, held, false};
+    }
     change.revision = held + 1;
   }
   insert(change, key.alias);
@@ -237,9 +241,10 @@ Receipt Library::remove(std::string_view kind, std::string_view name, std::strin
   require_writable();
   sqlite::Transaction transaction(connection_);
   const std::optional<Change> held = held_change(kind, name);
-  if (held)
+  if (held) {
     if (auto receipt = done(kind, held->name, request)) return *receipt;
-  if (!held || held->removed)
+  }
+  if (!held || held->removed) {
     throw Error(ErrorCode::UnknownDefinition,
                 "the library has no " + std::string(kind) + " \"" + std::string(name) + "\"",
                 {.field = "/name",
@@ -247,6 +252,7 @@ Receipt Library::remove(std::string_view kind, std::string_view name, std::strin
                  .limit = "a name that \"list\" lists",
                  .parameter = {},
                  .target = {}});
+  }
   Change change = *held;
   change.revision = held->revision + 1;
   change.time = now();

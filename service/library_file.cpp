@@ -49,9 +49,10 @@ const std::string& prepared(const std::string& file) {
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   std::error_code error;
   if (file != ":memory:" && !folder.empty()) std::filesystem::create_directories(folder, error);
-  if (error)
+  if (error) {
     throw Error(ErrorCode::Storage,
                 "library " + file + ": its folder cannot be made (" + error.message() + ")");
+  }
   return file;
 }
 
@@ -88,8 +89,9 @@ std::uint64_t digest(const Change& change) {
     hash = (hash ^ 0xff) * 0x100000001b3;  // no byte of UTF-8: ends the field
   };
   for (const std::string* text : {&change.kind, &change.name, &change.origin, &change.instance,
-                                  &change.request, &change.document})
+                                  &change.request, &change.document}) {
     add(*text);
+  }
   add(std::to_string(change.revision));
   add(std::to_string(change.time));
   add(change.removed ? "removed" : "");
@@ -141,13 +143,15 @@ void Library::create() {
     }
     transaction.commit();
   }
-  if (number("PRAGMA application_id") != application_id)
+  if (number("PRAGMA application_id") != application_id) {
     throw Error(ErrorCode::Storage, "library " + file_ + ": it is the database of another program");
-  if (number("PRAGMA user_version") > schema_version)
+  }
+  if (number("PRAGMA user_version") > schema_version) {
     throw Error(ErrorCode::Storage, "library " + file_ + ": it has version " +
                                         std::to_string(number("PRAGMA user_version")) +
                                         ", written by a newer program; this one reads up to " +
                                         std::to_string(schema_version));
+  }
 }
 
 /// Copies every record that can still be read into memory, row by row past the damaged pages.
@@ -177,10 +181,11 @@ void Library::salvage(const std::string& reason) {
       Statement row(damaged, by_id.c_str());
       if (!row.bind(id).step()) continue;
       const auto change = change_of(row);
-      if (change)
+      if (change) {
         insert(*change, alias_of(*change));
-      else
+      } else {
         ++lost;
+      }
     } catch (const Error&) {
       ++lost;
     }

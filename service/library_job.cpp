@@ -59,10 +59,11 @@ Json get(Json result, jobs::Object& job, const Library& library) {
   result["revision"] = change->revision;
   result["time"] = time_text(change->time);
   result["instance"] = change->instance;
-  if (change->removed)
+  if (change->removed) {
     result["removed"] = true;
-  else
+  } else {
     result["definition"] = Json::parse(change->document);
+  }
   return result;
 }
 
@@ -94,8 +95,9 @@ Json export_all(Json result, jobs::Object& job, const Library& library) {
       result["damaged"].push_back({{"kind", each.kind}, {"name", each.name}});
       continue;
     }
-    if (const auto definition = library.find(each.kind, each.name))
+    if (const auto definition = library.find(each.kind, each.name)) {
       result["definitions"].push_back(definition->document);
+    }
   }
   return result;
 }
@@ -116,10 +118,11 @@ Json history(Json result, jobs::Object& job, const Library& library) {
                  {"time", time_text(change.time)},
                  {"instance", change.instance},
                  {"origin", change.origin}};
-    if (change.removed)
+    if (change.removed) {
       line["removed"] = true;
-    else
+    } else {
       line["definition"] = Json::parse(change.document);
+    }
     const bool is_overruled = i + 1 < changes.size() && changes[i + 1].revision == change.revision;
     if (is_overruled) line["overruled"] = true;  // by the same revision, made elsewhere
     result["revisions"].push_back(std::move(line));

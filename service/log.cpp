@@ -49,8 +49,9 @@ bool set_level(std::string_view name) {
 }
 
 std::string level() {
-  for (const Name& each : names)
+  for (const Name& each : names) {
     if (each.spdlog == logger().level()) return std::string(each.name);
+  }
   return "info";
 }
 

@@ -30,8 +30,9 @@ std::string default_instance() {
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
   std::string name = std::string(host.data()).substr(0, 50) + '-' + std::to_string(getpid());
-  for (char& c : name)
+  for (char& c : name) {
     if (!dds::is_name(std::string_view(&c, 1))) c = '-';
+  }
   return name;
 }
 
@@ -106,9 +107,10 @@ int check(const Options& options) {
 
 int serve(const Options& options) {
   service::Library library(options.library, options.server.instance);
-  if (!library.damage().empty())
+  if (!library.damage().empty()) {
     service::log::event(service::log::Level::Error, "library_damaged",
                         {{"message", library.damage()}});
+  }
   service::Server server(options.server, library);
   service::log::event(service::log::Level::Info, "started",
                       {{"instance", options.server.instance},

@@ -38,8 +38,9 @@ struct Replies::Link {
 
   void refresh() {
     participants.clear();
-    for (const dds_guid_t& guid : dds::matched_readers(replies))
+    for (const dds_guid_t& guid : dds::matched_readers(replies)) {
       participants.push_back(wire::participant_of(guid.v));
+    }
     if (!participants.empty() || !queue.empty()) last_use = Clock::now();
   }
 
@@ -120,10 +121,11 @@ void Replies::hand_over(Outgoing outgoing, bool at_once) {
       const std::scoped_lock lock(to->mutex);
       if (to->is_closed) continue;
       if (at_once && to->queue.empty() && outgoing.chunks->count() == 1 &&
-          advance(*to, outgoing) == Step::Finished)
+          advance(*to, outgoing) == Step::Finished) {
         delivery = Delivery::Sent;
-      else
+      } else {
         to->queue.push_back(outgoing);
+      }
       break;
     }
   } catch (const std::exception& error) {
@@ -164,11 +166,12 @@ bool Replies::turn(Link& link) {
                    {{"id", wire::text(outgoing.id)}, {"message", error.what()}});
       }
       has_advanced = has_advanced || step != Step::Waits;
-      if (step == Step::Waits || step == Step::Advanced)
+      if (step == Step::Waits || step == Step::Advanced) {
         link.queue.push_back(std::move(outgoing));
-      else
+      } else {
         over.emplace_back(std::move(outgoing),
                           step == Step::Finished ? Delivery::Sent : Delivery::Undelivered);
+      }
     }
   }
   for (auto& [outgoing, delivery] : over) outgoing.done(delivery);
@@ -201,10 +204,11 @@ void Replies::run() {
     if (turn_all()) continue;
     std::unique_lock lock(mutex_);
     if (stopping_) return;
-    if (is_idle())
+    if (is_idle()) {
       wake_.wait(lock);
-    else
+    } else {
       wake_.wait_for(lock, retry_interval);
+    }
   }
 }
 

@@ -128,13 +128,14 @@ void Server::take_requests(dds_entity_t reader, Channel channel) {
     samples.for_each([&](const ridgeline_wire_Request& sample, const dds_sample_info_t& info) {
       if (!info.valid_data) return;
       wire::Request request = wire::request(sample);
-      if (dds::is_name(request.client))
+      if (dds::is_name(request.client)) {
         work_.take(std::move(request), channel,
                    std::chrono::nanoseconds(dds_time() - info.source_timestamp));
-      else
+      } else {
         log::event(log::Level::Warning, "no_client",
                    {{"id", wire::text(request.id)},
                     {"message", "the request does not name a client that could be answered"}});
+      }
     });
   }
 }
@@ -170,11 +171,12 @@ void Server::look_for_namesake() {
   samples.for_each([this](const ridgeline_wire_Instance& sample, const dds_sample_info_t& info) {
     const bool is_namesake = info.valid_data && info.instance_state == DDS_ALIVE_INSTANCE_STATE &&
                              sample.name == instance_ && sample.started != started_;
-    if (is_namesake && sample.started < started_ && stops_ == 0)
+    if (is_namesake && sample.started < started_ && stops_ == 0) {
       throw Error(ErrorCode::BadInput, "an instance with the name " + instance_ + " runs on " +
                                            sample.host + " already (process " +
                                            std::to_string(sample.pid) +
                                            "): give each its own --instance");
+    }
   });
 }
 
@@ -248,9 +250,10 @@ void Server::run() {
       next_tick = Clock::now() + tick_interval;
     }
   }
-  if (!replies_.drain(drain_limit))
+  if (!replies_.drain(drain_limit)) {
     log::event(log::Level::Warning, "undelivered",
                {{"message", "clients did not take their answers in time"}});
+  }
   wire::with_sample(status(), [this](const ridgeline_wire_Instance& sample) {
     dds::check(dds_writedispose(announcer_.get(), &sample), "dds_writedispose");
   });

@@ -34,8 +34,9 @@ void check(const Change& change) {
     throw Error(ErrorCode::BadInput, std::string(what) + " in a change of " + change.kind + " \"" +
                                          change.name + "\" from another instance");
   };
-  if (change.kind.empty() || change.name.empty() || change.revision < 1 || change.origin.empty())
+  if (change.kind.empty() || change.name.empty() || change.revision < 1 || change.origin.empty()) {
     refuse("no kind, name, revision or origin");
+  }
   if (change.removed) {
     if (!change.document.empty()) refuse("a removal with a document");
     return;
@@ -110,9 +111,10 @@ void Sharing::publish_new() {
 
 void Sharing::publish() {
   publish_new();
-  if (dds_wait_for_acks(writer_.get(), dds::duration(acknowledge_limit)) != DDS_RETCODE_OK)
+  if (dds_wait_for_acks(writer_.get(), dds::duration(acknowledge_limit)) != DDS_RETCODE_OK) {
     log::event(log::Level::Warning, "library_not_acknowledged",
                {{"message", "an instance was slow to take a change; it gets it when it can"}});
+  }
 }
 
 /// Did any sample come?
@@ -137,12 +139,13 @@ void Sharing::merge() {
   const int added = library_.merge(taken_);
   taken_.clear();
   if (added > 0) log::event(log::Level::Info, "library_merged", {{"changes", added}});
-  if (library_.conflicts() > conflicts)
+  if (library_.conflicts() > conflicts) {
     log::event(log::Level::Warning, "library_conflict",
                {{"message",
                  "two instances made the same revision of a definition: the later one "
                  "holds, \"history\" shows both"},
                 {"conflicts", library_.conflicts()}});
+  }
 }
 
 void Sharing::run() {

@@ -15,12 +15,13 @@ namespace {
 using Json = nlohmann::json;
 
 double finite(double value, const char* field) {
-  if (!std::isfinite(value))
+  if (!std::isfinite(value)) {
     jobs::refuse({.code = ErrorCode::BadInput,
                   .field = field,
                   .value = fmt::format("{}", value),
                   .limit = "a finite number",
                   .message = {}});
+  }
   return value;
 }
 
@@ -32,12 +33,13 @@ Json finite3(const double (&values)[3], const char* field) {
 template <std::size_t N, class E>
 const char* name_of(const char* const (&names)[N], E value, const char* field) {
   const auto index = static_cast<std::size_t>(value);
-  if (index >= N)
+  if (index >= N) {
     jobs::refuse({.code = ErrorCode::BadInput,
                   .field = field,
                   .value = std::to_string(static_cast<long>(value)),
                   .limit = fmt::format("an enumerator from 0 to {}", N - 1),
                   .message = {}});
+  }
   return names[index];
 }
 
@@ -45,15 +47,17 @@ Json section_angle(const dds_sequence_double& angles) {
   if (angles._length == 0) return "bisector";
   for (std::uint32_t i = 0; i < angles._length; ++i) finite(angles._buffer[i], "/section_angle");
   if (angles._length == 1) return angles._buffer[0];
-  if (angles._length % 2 != 0)
+  if (angles._length % 2 != 0) {
     jobs::refuse({.code = ErrorCode::BadInput,
                   .field = "/section_angle",
                   .value = fmt::format("{} numbers", angles._length),
                   .limit = "none, one angle, or pairs of phi and angle",
                   .message = {}});
+  }
   Json table = Json::array();
-  for (std::uint32_t i = 0; i < angles._length; i += 2)
+  for (std::uint32_t i = 0; i < angles._length; i += 2) {
     table.push_back({angles._buffer[i], angles._buffer[i + 1]});
+  }
   return table;
 }
 
@@ -135,28 +139,35 @@ Json chamfer_job(const ridgeline_wire_ChamferJob& c) {
               {"section_angle", section_angle(c.section_angle)},
               {"output", output(c)}};
   const std::string_view tool = c.tool;
-  if (!tool.empty() && tool.size() <= 9 && tool.find_first_not_of("0123456789") == tool.npos)
+  if (!tool.empty() && tool.size() <= 9 && tool.find_first_not_of("0123456789") == tool.npos) {
     job["tool"] = std::stoi(c.tool);
+  }
   job[name_of({"width", "cutting_amount"}, c.width_kind, "/width_kind")] =
       finite(c.width, "/width");
-  if (is_given(ridgeline_wire_GIVEN_TOLERANCE))
+  if (is_given(ridgeline_wire_GIVEN_TOLERANCE)) {
     job["tolerance"] = finite(c.tolerance, "/tolerance");
+  }
   if (is_given(ridgeline_wire_GIVEN_POINTS)) job["points"] = c.points;
-  if (is_given(ridgeline_wire_GIVEN_START_ANGLE))
+  if (is_given(ridgeline_wire_GIVEN_START_ANGLE)) {
     job["start_angle"] = finite(c.start_angle, "/start_angle");
+  }
   if (is_given(ridgeline_wire_GIVEN_OVERLAP)) job["overlap"] = finite(c.overlap, "/overlap");
   if (is_given(ridgeline_wire_GIVEN_PASSES)) job["passes"] = c.passes;
   if (is_given(ridgeline_wire_GIVEN_FEED)) job["feed"] = finite(c.feed, "/feed");
-  if (is_given(ridgeline_wire_GIVEN_SPINDLE_SPEED))
+  if (is_given(ridgeline_wire_GIVEN_SPINDLE_SPEED)) {
     job["spindle_speed"] = finite(c.spindle_speed, "/spindle_speed");
-  if (is_given(ridgeline_wire_GIVEN_CLEARANCE))
+  }
+  if (is_given(ridgeline_wire_GIVEN_CLEARANCE)) {
     job["clearance"] = finite(c.clearance, "/clearance");
-  if (is_given(ridgeline_wire_GIVEN_END_POSITION))
+  }
+  if (is_given(ridgeline_wire_GIVEN_END_POSITION)) {
     job["end_position"] = finite3(c.end_position, "/end_position");
-  if (is_given(ridgeline_wire_GIVEN_TOOL_AXIS_VECTOR))
+  }
+  if (is_given(ridgeline_wire_GIVEN_TOOL_AXIS_VECTOR)) {
     job["tool_axis"] = finite3(c.tool_axis_vector, "/tool_axis");
-  else if (*c.tool_axis != '\0')
+  } else if (*c.tool_axis != '\0') {
     job["tool_axis"] = jobs::valid_utf8(c.tool_axis);
+  }
   return job;
 }
 
@@ -180,12 +191,13 @@ Request request(const ridgeline_wire_Request& sample) {
         request.text = sample.call._u.echo;
         break;
     }
-    if (!(request.timeout > 0 && request.timeout < 1e7))
+    if (!(request.timeout > 0 && request.timeout < 1e7)) {
       jobs::refuse({.code = ErrorCode::BadInput,
                     .field = "timeout",
                     .value = fmt::format("{}", sample.timeout),
                     .limit = "greater than 0 and less than 1e7 s",
                     .message = {}});
+    }
   } catch (const Error& error) {
     request.unusable = error;
   }

@@ -33,10 +33,12 @@ InstanceStatus instance_status(const ridgeline_wire_Instance& s) {
                         .library_conflicts = s.library_conflicts,
                         .library_damage = s.library_damage,
                         .log_level = s.log_level};
-  for (std::uint32_t i = 0; i < s.operations._length; ++i)
+  for (std::uint32_t i = 0; i < s.operations._length; ++i) {
     status.operations.emplace_back(s.operations._buffer[i]);
-  for (std::uint32_t i = 0; i < s.answers._length; ++i)
+  }
+  for (std::uint32_t i = 0; i < s.answers._length; ++i) {
     status.answers.emplace_back(s.answers._buffer[i].code, s.answers._buffer[i].count);
+  }
   return status;
 }
 

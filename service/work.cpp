@@ -69,15 +69,16 @@ void Work::take(wire::Request request, Channel channel, std::chrono::nanoseconds
     return refuse(request, {ErrorCode::Cancelled, "cancelled by the requester"});
   }
   const auto timeout = std::chrono::duration<double>(request.unusable ? 1 : request.timeout);
-  if (age > timeout)
+  if (age > timeout) {
     return refuse(
         request,
         {ErrorCode::Timeout,
          fmt::format("the request was sent {:.3g} s ago and its client waits {:.3g} s; if it was "
                      "not, the clocks of the two machines differ",
                      std::chrono::duration<double>(age).count(), timeout.count())});
+  }
   if (is_closed_) return refuse(request, {ErrorCode::Busy, "the instance is stopping"});
-  if (queued_ >= limits_.queue || queued_bytes_ + request.text.size() > limits_.queue_bytes)
+  if (queued_ >= limits_.queue || queued_bytes_ + request.text.size() > limits_.queue_bytes) {
     return refuse(
         request,
         {ErrorCode::Busy,
@@ -87,6 +88,7 @@ void Work::take(wire::Request request, Channel channel, std::chrono::nanoseconds
           .limit = fmt::format("{} requests, {} bytes", limits_.queue, limits_.queue_bytes),
           .parameter = {},
           .target = {}}});
+  }
 
   auto task = std::make_shared<Task>();
   task->channel = channel;
@@ -130,10 +132,11 @@ Work::TaskPointer Work::next() {
   const auto queue = waiting_.find(client);
   TaskPointer task = std::move(queue->second.front());
   queue->second.pop_front();
-  if (queue->second.empty())
+  if (queue->second.empty()) {
     waiting_.erase(queue);
-  else
+  } else {
     turns_.push_back(client);
+  }
   --queued_;
   queued_bytes_ -= task->request.text.size();
   task->state = State::Running;
@@ -255,20 +258,24 @@ void Work::tick() {
   {
     const std::scoped_lock lock(mutex_);
     tasks = running = running_;
-    for (const auto& [client, queue] : waiting_)
+    for (const auto& [client, queue] : waiting_) {
       tasks.insert(tasks.end(), queue.begin(), queue.end());
+    }
   }
-  for (const TaskPointer& task : tasks)  // what these read never changes while they are known
-    if (replies_.reaches(task->request.client, wire::participant_of(task->request.id)))
+  for (const TaskPointer& task : tasks) {  // what these read never changes while they are known
+    if (replies_.reaches(task->request.client, wire::participant_of(task->request.id))) {
       task->last_reached = now;
+    }
+  }
   for (const TaskPointer& task : running) publish_progress(*task, now);
   const std::scoped_lock lock(mutex_);
   for (const TaskPointer& task : tasks) {
     if (task->end != End::None || task->state == State::Answered) continue;
-    if (now > task->deadline)
+    if (now > task->deadline) {
       end(task, End::Expired);
-    else if (now - task->last_reached > reach_limit)
+    } else if (now - task->last_reached > reach_limit) {
       end(task, End::Abandoned);
+    }
   }
 }
 

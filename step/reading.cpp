@@ -67,8 +67,9 @@ Json mouths(std::string_view file) {
                                return solid.model().volume;
                              })->model();
   Json list = Json::array();
-  for (const part::Mouth& mouth : part::mouths_of(model))
+  for (const part::Mouth& mouth : part::mouths_of(model)) {
     list.push_back(mouth_document(mouth, list.size() + 1));
+  }
   return {{"mouths", std::move(list)},
           {"low", vector_document(model.low)},
           {"high", vector_document(model.high)}};

@@ -16,8 +16,9 @@ std::string quoted(const std::string& text) {
 }
 
 void add_names(const std::vector<Argument>& options, std::vector<std::string>& names) {
-  for (const Argument& option : options)
+  for (const Argument& option : options) {
     names.insert(names.end(), option.names.begin(), option.names.end());
+  }
 }
 
 std::string words(const std::vector<std::string>& list) {
@@ -47,10 +48,13 @@ std::string words_for(const Argument& argument) {
 /// `-o|--output` of all options that a value follows.
 std::string with_value(const std::vector<const Syntax*>& commands) {
   std::vector<std::string> names;
-  for (const Syntax* command : commands)
-    for (const Argument& option : command->options)
-      if (!option.value.empty())
+  for (const Syntax* command : commands) {
+    for (const Argument& option : command->options) {
+      if (!option.value.empty()) {
         names.insert(names.end(), option.names.begin(), option.names.end());
+      }
+    }
+  }
   std::ranges::sort(names);
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return fmt::format("{}", fmt::join(names, "|"));
@@ -58,25 +62,28 @@ std::string with_value(const std::vector<const Syntax*>& commands) {
 
 std::string value_cases(const std::vector<const Syntax*>& commands, const Syntax& program) {
   std::string cases;
-  for (const Syntax* command : commands)
+  for (const Syntax* command : commands) {
     for (const Argument& option : command->options) {
       if (option.value.empty()) continue;
       const std::string path = path_of(*command, program);
       std::vector<std::string> patterns;
-      for (const std::string& name : option.names)
+      for (const std::string& name : option.names) {
         patterns.push_back(path.empty() ? "*" + quoted(" " + name)
                                         : quoted(fmt::format("{} {}", path, name)));
+      }
       cases += fmt::format("    {}) {}; return ;;\n", fmt::join(patterns, "|"), words_for(option));
     }
+  }
   return cases;
 }
 
 /// By the number of positionals before it; the last one goes on where it may be repeated.
 std::string positional_case(const std::vector<Argument>& positionals) {
   std::string cases;
-  for (std::size_t i = 0; i < positionals.size(); ++i)
+  for (std::size_t i = 0; i < positionals.size(); ++i) {
     cases += (positionals[i].is_repeatable ? "*" : std::to_string(i)) + ") " +
              words_for(positionals[i]) + " ;; ";
+  }
   return "case $count in " + cases + "esac";
 }
 
@@ -86,8 +93,9 @@ std::string word_cases(const std::vector<const Syntax*>& commands, const Syntax&
     std::vector<std::string> options, names;
     add_names(command->options, options);
     if (command != &program) add_names(program.options, options);
-    for (const Syntax& each : command->commands)
+    for (const Syntax& each : command->commands) {
       names.push_back(each.name.substr(each.name.rfind(' ') + 1));
+    }
     const std::string other = names.empty() ? positional_case(command->positionals) : words(names);
     cases += "    " + quoted(path_of(*command, program)) + ")\n      case $word in\n        -*) " +
              words(options) + " ;;\n        *) " + other + " ;;\n      esac ;;\n";
@@ -101,8 +109,9 @@ std::string bash_completion(const Syntax& program) {
   std::vector<const Syntax*> commands;
   collect(program, commands);
   std::vector<std::string> paths;
-  for (const Syntax* command : commands)
+  for (const Syntax* command : commands) {
     if (command != &program) paths.push_back(quoted(path_of(*command, program)));
+  }
   const std::string known = fmt::format("{}", fmt::join(paths, "|"));
   const std::string follow =
       known.empty()

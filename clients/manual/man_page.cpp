@@ -14,14 +14,15 @@ namespace {
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
-    if (c == '\\')
+    if (c == '\\') {
       result += "\\e";
-    else if (c == '-' || c == '\'')
+    } else if (c == '-' || c == '\'') {
       result += c == '-' ? "\\-" : "\\(aq";
-    else if (c == '.' && (result.empty() || result.back() == '\n'))
+    } else if (c == '.' && (result.empty() || result.back() == '\n')) {
       result += "\\&.";
-    else
+    } else {
       result += c;
+    }
   }
   return result;
 }
@@ -49,11 +50,13 @@ std::string value_of(const Argument& argument) {
 std::string paragraph(const Argument& argument) {
   const bool is_positional = !argument.names.front().starts_with('-');
   std::vector<std::string> names;
-  for (const std::string& name : argument.names)
+  for (const std::string& name : argument.names) {
     names.push_back(is_positional ? slanted(name) : bold(name));
+  }
   std::string tag = fmt::format("{}", fmt::join(names, ", "));
-  if (!argument.value.empty() && (!is_positional || !argument.choices.empty()))
+  if (!argument.value.empty() && (!is_positional || !argument.choices.empty())) {
     tag += (is_positional ? ": " : " ") + value_of(argument);
+  }
   std::string text = escaped(one_line(argument.description));
   std::vector<std::string> notes;
   if (argument.is_required && !is_positional) notes.push_back("required");
@@ -65,8 +68,9 @@ std::string paragraph(const Argument& argument) {
 
 std::string paragraphs(const std::vector<Argument>& arguments, const std::string& but = {}) {
   std::string text;
-  for (const Argument& argument : arguments)
+  for (const Argument& argument : arguments) {
     if (argument.names.back() != but) text += paragraph(argument);
+  }
   return text;
 }
 
@@ -108,10 +112,12 @@ std::string environment(const Syntax& program) {
       ".SH ENVIRONMENT\n.TP\n" + bold("CYCLONEDDS_URI") +
       "\nDDS configuration, e.g. file:///etc/ridgeline/network.xml; without it the loopback of "
       "this machine alone is used\n";
-  for (const Argument& option : program.options)
-    if (!option.environment.empty())
+  for (const Argument& option : program.options) {
+    if (!option.environment.empty()) {
       text +=
           ".TP\n" + bold(option.environment) + "\nDefault of " + bold(option.names.back()) + "\n";
+    }
+  }
   return text;
 }
 
@@ -129,14 +135,16 @@ std::string man_page(const Syntax& program, const About& about) {
   page += ".SH SYNOPSIS\n" + synopsis(program);
   page += ".SH DESCRIPTION\n" + footer_of(program.footer.substr(0, statuses));
   page += ".SH OPTIONS\n" + paragraphs(program.options);
-  if (!program.commands.empty())
+  if (!program.commands.empty()) {
     page += ".SH COMMANDS\nAll options above hold for every command, before or behind its name.\n" +
             command_sections(program);
+  }
   page += environment(program);
   if (statuses != std::string::npos) {
     std::string items = one_line(program.footer.substr(statuses + marker.size()));
-    for (std::size_t at = 0; (at = items.find(", ", at)) != std::string::npos;)
+    for (std::size_t at = 0; (at = items.find(", ", at)) != std::string::npos;) {
       items.replace(at, 2, "\n.br\n");
+    }
     page += ".SH EXIT STATUS\n" + escaped(items) + "\n";
   }
   return page + ".SH SEE ALSO\n" + about.see_also + "\n";

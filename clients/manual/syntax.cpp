@@ -52,11 +52,13 @@ Syntax syntax_of(const CLI::App& app, const std::string& before) {
   syntax.description = app.get_description();
   syntax.footer = app.get_footer();
   const auto is_shown = [](const auto* each) { return !each->get_group().empty(); };
-  for (const CLI::Option* option : app.get_options(is_shown))
+  for (const CLI::Option* option : app.get_options(is_shown)) {
     (option->get_positional() ? syntax.positionals : syntax.options)
         .push_back(argument_of(*option));
-  for (const CLI::App* command : app.get_subcommands(is_shown))
+  }
+  for (const CLI::App* command : app.get_subcommands(is_shown)) {
     syntax.commands.push_back(syntax_of(*command, syntax.name + " "));
+  }
   return syntax;
 }
 

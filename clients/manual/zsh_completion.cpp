@@ -12,14 +12,15 @@ namespace {
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
-    if (c == '\'')
+    if (c == '\'') {
       result += "'\\''";
-    else if (c == '\n')
+    } else if (c == '\n') {
       result += ' ';
-    else if (c == ':' || c == '[' || c == ']' || c == '\\')
+    } else if (c == ':' || c == '[' || c == ']' || c == '\\') {
       result += std::string("\\") + c;
-    else
+    } else {
       result += c;
+    }
   }
   return result;
 }
@@ -55,20 +56,25 @@ std::string specifications(const Syntax& command, const Syntax& program) {
   std::string text;
   const auto add = [&text](const std::string& line) { text += " \\\n    " + line; };
   for (const Argument& option : command.options) add(specification(option));
-  if (&command != &program)
-    for (const Argument& option : program.options)
-      if (option.names.back() != "--help" && option.names.back() != "--version")
+  if (&command != &program) {
+    for (const Argument& option : program.options) {
+      if (option.names.back() != "--help" && option.names.back() != "--version") {
         add(specification(option));
-  for (const Argument& each : command.positionals)
+      }
+    }
+  }
+  for (const Argument& each : command.positionals) {
     add("'" + std::string(each.is_repeatable ? "*" : "") + ":" + escaped(each.names.front()) + ":" +
         action_of(each) + "'");
+  }
   return text;
 }
 
 std::string functions(const Syntax& command, const Syntax& program) {
   std::string text = function_of(command) + "() {\n";
-  if (command.commands.empty())
+  if (command.commands.empty()) {
     return text + "  _arguments -s" + specifications(command, program) + "\n}\n";
+  }
   text += "  local state line\n  local -a commands=(\n";
   std::string cases, inner;
   for (const Syntax& each : command.commands) {

@@ -53,9 +53,10 @@ public:
     const std::scoped_lock lock(mutex_);
     std::ofstream stream(file_, std::ios::app);
     stream << line(item, job) << std::endl;
-    if (!stream)
+    if (!stream) {
       throw Error(ErrorCode::BadFile, "cannot write " + file_.string() +
                                           ": the batch could not go on where it stopped");
+    }
   }
 
 private:
@@ -78,10 +79,11 @@ std::vector<Item> items_of(const Arguments& arguments) {
     const std::filesystem::path name =
         std::filesystem::path(job).stem().concat("." + arguments.format);
     const std::string output = (std::filesystem::path(arguments.folder) / name).string();
-    if (!outputs.insert(output).second)
+    if (!outputs.insert(output).second) {
       jobs::refuse({.value = job,
                     .limit = "job files of different names",
                     .message = "two jobs would write " + output});
+    }
     items.push_back({job, output, {}});
   }
   return items;
@@ -91,8 +93,9 @@ std::vector<Item> items_of(const Arguments& arguments) {
 std::size_t jobs_at_once(const Session& session, const Arguments& arguments) {
   std::size_t count = static_cast<std::size_t>(arguments.at_once);
   if (count == 0 && session.options().local) count = std::thread::hardware_concurrency();
-  if (count == 0)
+  if (count == 0) {
     for (const wire::InstanceStatus& status : session.status()) count += status.workers;
+  }
   return std::clamp<std::size_t>(count, 1, arguments.jobs.size());
 }
 
@@ -155,9 +158,10 @@ Outcome summary(const Session& session, const std::vector<Item>& items) {
   }
   answer.document["status"] = failed == 0 ? "ok" : "error";
   if (session.interrupt().is_interrupted()) outcome.status = ExitStatus::Interrupted;
-  if (failed > 0)
+  if (failed > 0) {
     outcome.diagnostic =
         std::to_string(failed) + " of " + std::to_string(items.size()) + " jobs failed";
+  }
   outcome.text = jobs::to_json(answer);
   return outcome;
 }
@@ -166,12 +170,14 @@ Outcome run(const Session& session, const Arguments& arguments) {
   std::vector<Item> items = items_of(arguments);
   std::error_code error;
   std::filesystem::create_directories(arguments.folder, error);
-  if (error)
+  if (error) {
     throw Error(ErrorCode::BadFile,
                 "cannot make the folder " + arguments.folder + ": " + error.message());
-  for (Item& item : items)
+  }
+  for (Item& item : items) {
     item.outcome =
         unusable(Error(ErrorCode::Cancelled, "not begun when the batch was interrupted"));
+  }
   run_all(session, arguments, items);
   return summary(session, items);
 }

@@ -42,9 +42,10 @@ std::string read_all(int descriptor, const std::string& path) {
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) fail(path, "read", std::strerror(errno));
     text.append(buffer.data(), static_cast<std::size_t>(count));
-    if (text.size() > jobs::max_document_bytes)
+    if (text.size() > jobs::max_document_bytes) {
       fail(path, "read",
            "it is longer than " + std::to_string(jobs::max_document_bytes) + " bytes");
+    }
   }
 }
 

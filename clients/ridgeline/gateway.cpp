@@ -54,8 +54,9 @@ bool Gateway::is_allowed(const Request& request) const {
   const std::string port = ":" + std::to_string(port_);
   const std::string host = request.get_header_value("Host");
   if (host != "127.0.0.1" + port && host != "localhost" + port) return false;
-  if (request.has_header("Origin") && request.get_header_value("Origin") != "http://" + host)
+  if (request.has_header("Origin") && request.get_header_value("Origin") != "http://" + host) {
     return false;
+  }
   // A page elsewhere can send a form without asking first, but not JSON.
   return request.method != "POST" ||
          request.get_header_value("Content-Type").starts_with("application/json");
@@ -64,14 +65,16 @@ bool Gateway::is_allowed(const Request& request) const {
 void Gateway::status(Response& response) {
   Json document = {{"status", "ok"}, {"instances", Json::array()}, {"under_way", Json::array()}};
   try {
-    for (const wire::InstanceStatus& each : session_.status())
+    for (const wire::InstanceStatus& each : session_.status()) {
       document["instances"].push_back(wire::document(each));
+    }
   } catch (const Error& error) {
     return send_refusal(response, jobs::refusal(error).document);
   }
   const std::lock_guard lock(mutex_);
-  for (const auto& [id, job] : under_way_)
+  for (const auto& [id, job] : under_way_) {
     document["under_way"].push_back({{"fraction", job.fraction}, {"stage", job.stage}});
+  }
   send(response, document);
 }
 
@@ -141,10 +144,11 @@ int Gateway::bind(int port) {
   port_ = port;
   const bool is_bound = port == 0 ? (port_ = server_->bind_to_any_port(address)) > 0
                                   : server_->bind_to_port(address, port);
-  if (!is_bound)
+  if (!is_bound) {
     throw Error(ErrorCode::BadFile, "cannot listen on " + std::string(address) + ":" +
                                         std::to_string(port) +
                                         ": is it in use? --port chooses another");
+  }
   set_up();
   return port_;
 }

@@ -29,8 +29,9 @@ Outcome ask(const Session& session, Json job) {
 /// The definitions of a file: one, an array, or what export wrote.
 Json definitions_in(const std::string& path) {
   Json document = read_document(path);
-  if (document.is_object() && document.contains("definitions"))
+  if (document.is_object() && document.contains("definitions")) {
     return std::move(document["definitions"]);
+  }
   if (document.is_object()) return Json::array({std::move(document)});
   if (document.is_array()) return document;
   jobs::refuse({.value = "neither",

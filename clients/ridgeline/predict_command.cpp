@@ -21,8 +21,9 @@ struct PredictArguments {
 Json predict_document(const PredictArguments& arguments) {
   Json document = read_document(arguments.job);
   const bool is_object = document.is_object();
-  if (is_object && document.contains("job") && document["job"] != "predict")
+  if (is_object && document.contains("job") && document["job"] != "predict") {
     document = Json{{"job", "predict"}, {"along", document}};
+  }
   if (arguments.correct && is_object && !document.contains("correct")) document["correct"] = true;
   return document;
 }

@@ -66,8 +66,9 @@ std::map<std::string, std::string> read_programs(const std::string& folder,
   if (!has_names) return programs;
   for (const std::filesystem::path& file : files) {
     const std::string name = file.stem().string();
-    if (program_number(name) < 0 && is_program_name(name))
+    if (program_number(name) < 0 && is_program_name(name)) {
       programs[name] = read_file(file.string());
+    }
   }
   return programs;
 }

@@ -13,8 +13,9 @@ using Statuses = std::vector<wire::InstanceStatus>;
 jobs::Answer document_of(const Statuses& statuses) {
   jobs::Answer answer;
   answer.document = {{"status", "ok"}, {"instances", nlohmann::json::array()}};
-  for (const wire::InstanceStatus& status : statuses)
+  for (const wire::InstanceStatus& status : statuses) {
     answer.document["instances"].push_back(wire::document(status));
+  }
   return answer;
 }
 
@@ -22,11 +23,12 @@ std::string table_of(const Statuses& statuses) {
   std::string table = fmt::format("{:<20} {:<10} {:<20} {:>7} {:>9} {:>8} {:>9} {:>10} {:>9}\n",
                                   "instance", "version", "host", "running", "queued", "clients",
                                   "requests", "p99 [ms]", "library");
-  for (const wire::InstanceStatus& s : statuses)
+  for (const wire::InstanceStatus& s : statuses) {
     table += fmt::format(
         "{:<20} {:<10} {:<20} {:>3} of {:<2}{:>3} of {:<4}{:>8} {:>9} {:>10.2f} {:>9}\n", s.name,
         s.version, s.host, s.running, s.workers, s.queued, s.queue_limit, s.clients, s.requests,
         s.latency_p99 * 1e3, s.library_changes);
+  }
   return table;
 }
 

@@ -142,8 +142,9 @@ void add_edit(CLI::App& units, Selected& selected) {
           ->type_name("N");
   edits->excludes(undo);
   command.callback([&selected, arguments] {
-    if (arguments->edit.empty() && !arguments->undo)
+    if (arguments->edit.empty() && !arguments->undo) {
       throw CLI::ValidationError("EDIT", "a file of edits or --undo is needed");
+    }
     selected.run = [arguments](const Session& session) { return edit(session, *arguments); };
   });
   add_format(command, arguments, {"json", "text", "svg", "html"});

@@ -88,8 +88,9 @@ struct Solver {
       const double j = joint + std::round(v - joint);  // the periodic image next to v
       for (const double image : {j - 1, j, j + 1}) {
         const double way = (image - v) / step;
-        if (way > joint_step / std::abs(step) && way < 1 && (!first || way < (*first - v) / step))
+        if (way > joint_step / std::abs(step) && way < 1 && (!first || way < (*first - v) / step)) {
           first = image;
+        }
       }
     }
     return first;
@@ -102,10 +103,11 @@ struct Solver {
     s.square = w.squaredNorm();
     if (touch.before) {  // rests on the corner unless one side draws it away
       const double h_before = w.dot(*touch.before);
-      if (h_before >= 0 && s.h <= 0)
+      if (h_before >= 0 && s.h <= 0) {
         s.h = 0;
-      else if (h_before < 0)
+      } else if (h_before < 0) {
         s.h = h_before;
+      }
     } else if (s.m > 0) {
       s.square -= s.h * s.h / s.m;
       slope -= 2 * s.h / s.m * touch.B1;

@@ -22,9 +22,10 @@ Deflections round_and_round(const Deflections& centre, int samples) {
 
 double greatest_step(const Deflections& centre) {
   double greatest = 0;
-  for (std::size_t i = 0; i < centre.size(); ++i)
+  for (std::size_t i = 0; i < centre.size(); ++i) {
     greatest =
         std::max(greatest, (centre[i + 1 < centre.size() ? i + 1 : 0] - centre[i]).squaredNorm());
+  }
   return std::sqrt(greatest);
 }
 
@@ -190,8 +191,9 @@ void search(const Scene& scene, const Edge& edge, const Before& before, std::int
     if (b > least) {  // may cut deeper than the tooth before
       Eigen::Vector3d P = point(edge, at);
       if (is_centred) P.head<2>() += scene.at(sample);
-      if (is_in_stock(scene, P) && (!is_centred || cuts_deeper(b, sample, at)))
+      if (is_in_stock(scene, P) && (!is_centred || cuts_deeper(b, sample, at))) {
         found.push_back({sample, element});
+      }
     }
     sample = sample + 1 < N ? sample + 1 : 0;
   }
@@ -256,8 +258,9 @@ Before before(const Cut& cut, int tooth, int m) {
 
 Candidates candidates(const Scene& scene, const std::vector<Edge>& edges, const Before& before) {
   Candidates out;
-  for (std::size_t j = 0; j < edges.size(); ++j)
+  for (std::size_t j = 0; j < edges.size(); ++j) {
     search(scene, edges[j], before, static_cast<std::int32_t>(j), out.found);
+  }
   out.first = sort_by_sample(out.found, scene.cut.samples);
   return out;
 }

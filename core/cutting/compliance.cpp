@@ -55,8 +55,9 @@ std::vector<double> peaks(const MeasuredResponse& measured) {
   std::vector<double> found;
   for (std::size_t i = 1; i + 1 < values.size(); ++i) {
     const bool is_large = std::abs(values[i]) >= greatest / 10;
-    if (is_large && stands_out(measured, i, -1) && stands_out(measured, i, 1))
+    if (is_large && stands_out(measured, i, -1) && stands_out(measured, i, 1)) {
       found.push_back(lines[i]);
+    }
   }
   return found;
 }

@@ -262,7 +262,7 @@ private:
     }
     const Eigen::Matrix2d g = axes_ * end_gain_.asDiagonal() * axes_.transpose();
     const Eigen::Matrix2d left = Eigen::Matrix2d::Identity() - g * linear.now;
-    const Eigen::Vector2d dU = left.inverse() * (axes_ * free + g * delayed);
+    Eigen::Vector2d dU = left.inverse() * (axes_ * free + g * delayed);
     F = linear.now * dU + delayed;
     const Eigen::Vector2d F1 = axes_.transpose() * F;
     i = 0;

@@ -47,8 +47,9 @@ double limit_of(const CorrectOptions& limits, double original) {
 double left_of(const Station& station, const StationError& now, double s, bool by_borders) {
   if (!by_borders || station.borders.empty()) return *now.e - s;
   double sum = 0;
-  for (std::size_t b = 0; b < station.borders.size(); ++b)
+  for (std::size_t b = 0; b < station.borders.size(); ++b) {
     sum += *now.border[b] - s * station.n.dot(station.borders[b]);
+  }
   return sum / static_cast<double>(station.borders.size());
 }
 
@@ -142,8 +143,9 @@ double Follower::spread(const Station& nominal, double shift, double e) {
     Station station = nominal;
     station.centre -= shift * station.n;
     Deflections D = start_;
-    if (iterate_options(course_, options_).span == Span::Pitch)
+    if (iterate_options(course_, options_).span == Span::Pitch) {
       D.resize(D.size() / static_cast<std::size_t>(teeth(course_.cutter)));
+    }
     iteration_.solve(cut_at(course_, station), compliance_.axes, D);
   }
   const auto& [cutting, edge, stiffness] = *options_.uncertainty;

@@ -19,7 +19,7 @@ Deflections resampled(const Deflections& from, int n) {
   for (int i = 0; i < n; ++i) {
     const double at = i * step;
     const auto below = static_cast<std::size_t>(at);
-    const Eigen::Vector2d next = from[(below + 1) % from.size()];
+    const Eigen::Vector2d& next = from[(below + 1) % from.size()];
     to.push_back(from[below] + (at - static_cast<double>(below)) * (next - from[below]));
   }
   return to;
@@ -157,10 +157,11 @@ Prediction Iteration::scaled(double cut_scale, double edge_scale) {
   const double edge_change = edge_scale / edge_scale_;
   cut_scale_ = cut_scale;
   edge_scale_ = edge_scale;
-  if (greatest_deflection(table_.cut, D, table_.around.centre) > table_.around.reach)
+  if (greatest_deflection(table_.cut, D, table_.around.centre) > table_.around.reach) {
     make_room(Cut(table_.cut), D, std::numeric_limits<double>::infinity(), next_margin);
-  else
+  } else {
     scale_forces(table_, cut_change, edge_change);
+  }
   return loops(std::move(D), {});
 }
 

@@ -37,17 +37,19 @@ void Secants::learn(const Eigen::VectorXd& D, const Eigen::VectorXd& R) {
   differences_.push_back({R - last_.R, (D - last_.D) + (R - last_.R)});
   const auto count = static_cast<Eigen::Index>(differences_.size());
   products_.conservativeResize(count, count);
-  for (Eigen::Index j = 0; j < count; ++j)
+  for (Eigen::Index j = 0; j < count; ++j) {
     products_(count - 1, j) =
         differences_.back().R.dot(differences_[static_cast<std::size_t>(j)].R);
+  }
   products_(count - 1, count - 1) *= 1 + damping;
 }
 
 // Least squares: R - sum share_i dR_i is least.
 Eigen::VectorXd Secants::shares(const Eigen::VectorXd& R) const {
   Eigen::VectorXd with_R(products_.rows());
-  for (Eigen::Index i = 0; i < with_R.size(); ++i)
+  for (Eigen::Index i = 0; i < with_R.size(); ++i) {
     with_R[i] = differences_[static_cast<std::size_t>(i)].R.dot(R);
+  }
   return products_.selfadjointView<Eigen::Lower>().ldlt().solve(with_R);
 }
 
@@ -57,8 +59,9 @@ Deflections Secants::ahead(const Deflections& D1, const Deflections& D4) const {
   const Eigen::VectorXd share = shares(R);
   Deflections out = D4;
   Eigen::Map<Eigen::VectorXd> moved(out.front().data(), R.size());
-  for (Eigen::Index i = 0; i < share.size(); ++i)
+  for (Eigen::Index i = 0; i < share.size(); ++i) {
     moved -= share[i] * differences_[static_cast<std::size_t>(i)].D_and_R;
+  }
   const bool cancels = !((moved - flat(D4)).norm() <= flat(D4).norm());  // as in next()
   return cancels ? Deflections() : out;
 }
@@ -75,13 +78,15 @@ Deflections Secants::next(const Deflections& D1, const Deflections& D4) {
   if (!differences_.empty()) {
     const Eigen::VectorXd share = shares(R);
     Eigen::VectorXd step = R;
-    for (Eigen::Index i = 0; i < share.size(); ++i)
+    for (Eigen::Index i = 0; i < share.size(); ++i) {
       step -= share[i] * differences_[static_cast<std::size_t>(i)].D_and_R;
+    }
     const double longest = longest_step * std::max(D.norm(), flat(D4).norm());
-    if (step.norm() <= longest)
+    if (step.norm() <= longest) {
       moved = D + step;
-    else
+    } else {
       clear();
+    }
   }
   Deflections out(D1.size());
   Eigen::Map<Eigen::VectorXd>(out.front().data(), moved.size()) = moved;

@@ -66,10 +66,11 @@ double height_squared(const BreakOut& curve, const Profile& profile, double u) {
   const bool both = curve.plus >= 0 && curve.minus >= 0;
   const bool at_plus = both ? (sine > 0) == curve.mirrored : curve.plus >= 0;
   const UpperHalf upper(profile);
-  if (at_plus)
+  if (at_plus) {
     below = upper.fall(curve.plus, way, curve.R1 - curve.f, x);
-  else
+  } else {
     above = upper.fall(curve.minus, -way, -curve.R1 - curve.f, x);
+  }
   return below * above;
 }
 

@@ -22,8 +22,9 @@ namespace {
 double height_at(const RidgeLine& ridge, const Eigen::Vector2d& p, double u) {
   const Body& F = ridge.F;
   if (F.a == 0) return -(F.n.x() * p.x() + F.n.y() * p.y() + F.c) / F.n.z();
-  if (ridge.merged)
+  if (ridge.merged) {
     return (height_across(*ridge.merged, ridge.profile, u) - F.hy * p.y()) * ridge.over_hz;
+  }
   const double x = p.x() + F.f;
   const double square = (ridge.R1 - x) * (ridge.R1 + x);
   if (!(square > 0)) refuse(u);

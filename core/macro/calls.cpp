@@ -72,7 +72,7 @@ void Runner::push(Frame frame, int column) {
     variables_.open_level(frame.arguments.values, frame.arguments.undotted, frame.arguments.scale);
   }
   state_.modal.O = frame.program->number;
-  frames_.push_back(std::move(frame));
+  frames_.push_back(frame);
 }
 
 // <NAME>; <O123> is O123.
@@ -109,8 +109,8 @@ void Runner::call_macro(Frame& frame, const Block& block) {
   called.kind = FrameKind::Macro;
   called.program = &called_by(*frame.program, call);
   called.repeats = call.repeats;
-  called.arguments = std::move(call.arguments);
-  push(std::move(called), call.column);
+  called.arguments = call.arguments;
+  push(called, call.column);
 }
 
 void Runner::call_modal(Frame& frame, const Block& block) {
@@ -158,7 +158,7 @@ void Runner::call_modally(const ModalCall& call, const Arguments& arguments, std
   called.repeats = call.repeats;
   called.arguments = arguments;
   called.modal_depth = depth - 1;
-  push(std::move(called), column);
+  push(called, column);
 }
 
 // G67 and what steers the program (M98, M99, its end) stay what they are under G66.1.
@@ -194,7 +194,7 @@ void Runner::call_subprogram(const Program& program) {
     if (called.first < 0) raise(AlarmNumber::NumberNotFound, numbered("N", label), column);
     called.next = called.first;
   }
-  push(std::move(called), block_->column);
+  push(called, block_->column);
 }
 
 const Program& Runner::numbered_subprogram(std::int64_t& repeats) {

@@ -58,9 +58,9 @@ bool Runner::macro_by_code(Frame& frame, const Block& block) {
   next.kind = FrameKind::Macro;
   next.program = &called;
   next.repeats = call.repeats;
-  next.arguments = std::move(call.arguments);
+  next.arguments = call.arguments;
   next.is_by_code = true;
-  push(std::move(next), block.column);
+  push(next, block.column);
   return true;
 }
 
@@ -87,7 +87,7 @@ void Runner::call_by_code(const Program& called, int column) {
   next.program = &called;
   next.is_by_code = true;
   if (words_.has('L')) next.repeats = rounded_integer(words_['L'], words_.column_of('L'));
-  push(std::move(next), column);
+  push(next, column);
 }
 
 }  // namespace ridgeline::macro

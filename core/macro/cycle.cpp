@@ -63,6 +63,7 @@ std::vector<OffsetPass> offset_passes(const Cycle& cycle, const std::vector<Stat
   const bool is_top = cycle.outline && cycle.outline->is_top_edge;
   const double shift = !is_top ? 0 : cycle.family == Family::ComplexSide ? cycle.width : cycle.R;
   std::vector<OffsetPass> passes;
+  passes.reserve(stations.size());
   for (const Station& station : stations) {
     passes.push_back({station.param, station.tip.y(), shift - station.tip.x()});
   }

@@ -266,10 +266,11 @@ void rotated(const Cycle& cycle, const CycleResult& solved, Result& result) {
     const Vector3d& to = cycle.rotation_axis == 0   ? point.about_x
                          : cycle.rotation_axis == 1 ? point.about_y
                                                     : point.about_z;
-    if (is_first)
+    if (is_first) {
       builder.rapid(to);
-    else
+    } else {
       builder.line(to, cycle.feed);
+    }
     is_first = false;
   }
 }
@@ -325,14 +326,15 @@ Result cycle_motion(const Cycle& cycle, const CycleResult& solved, const Progres
         cycle.family == Family::HelicalSide || cycle.family == Family::HelicalCornerR;
     if (is_helix) placed_cycle.edge = EdgeShape::Circle;
     SectionMover mover(placed_cycle, result);
-    if (cycle.family == Family::HelicalSide)
+    if (cycle.family == Family::HelicalSide) {
       helical_side(placed_cycle, mover);
-    else if (cycle.family == Family::HelicalCornerR)
+    } else if (cycle.family == Family::HelicalCornerR) {
       helical_corner(placed_cycle, mover);
-    else if (cycle.method == 1)
+    } else if (cycle.method == 1) {
       across_edge(cycle, solved, mover, progress);
-    else
+    } else {
       along_edge(cycle, solved, mover, progress);
+    }
   }
   if (!result.motion.empty()) {
     result.position = result.motion.back().to;

@@ -96,15 +96,17 @@ std::string cycle_program(const Cycle& cycle, const CycleProgram& options) {
 
   MacroText text(options.dialect);
   text.line("%");
-  if (text.is_fanuc())
+  if (text.is_fanuc()) {
     text.line(numbered("O", options.number) + "(" + title_of(cycle) + ")");
-  else
+  } else {
     text.comment(title_of(cycle));
+  }
   const std::vector<Argument> arguments = arguments_of(cycle);
-  if (is_macro)
+  if (is_macro) {
     write_call(arguments, options, text);
-  else
+  } else {
     write_parameters(arguments, text);
+  }
   write_checks(cycle, text);
   if (!is_macro && cycle.family != Family::Series) write_start(options, text);
   if (is_complex(cycle)) {

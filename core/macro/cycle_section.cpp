@@ -111,6 +111,7 @@ std::vector<double> places(double from, double to, double step) {
   const auto count = static_cast<int>(std::ceil(range / step - divides));
   const double direction = to < from ? -1 : 1;
   std::vector<double> result;
+  result.reserve(static_cast<std::size_t>(count) + 1);
   for (int i = 0; i < count; ++i) result.push_back(from + direction * i * step);
   result.push_back(to);
   return result;

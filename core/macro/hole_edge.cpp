@@ -146,10 +146,11 @@ void write_head(const HoleEdge& edge, const HoleEdgeProgram& options, MacroText&
   const std::string title = std::string("CHAMFER OF A HOLE EDGE, ") +
                             (edge.is_outer ? "OUTER" : "INNER") +
                             (edge.is_exit ? ", EXIT" : ", ENTRY");
-  if (text.is_fanuc())
+  if (text.is_fanuc()) {
     text.line(numbered("O", options.number) + "(" + title + ")");
-  else
+  } else {
     text.comment(title);
+  }
   const bool is_macro = options.kind == HoleEdgeProgram::Kind::Macro;
   std::string call = numbered("CALL: G65 P", options.number);
   for (const HoleArgument& argument : arguments_of(edge)) {

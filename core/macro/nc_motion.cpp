@@ -214,7 +214,7 @@ Vector2d NcExecutor::arc_centre(const Vector2d& from, const Vector2d& to,
       const char letter = "IJK"[axis];
       return words_->has(letter) ? length_word(letter) : 0.0;
     };
-    const Vector2d centre = from + Vector2d(way(axes.first), way(axes.second));
+    Vector2d centre = from + Vector2d(way(axes.first), way(axes.second));
     const double start_radius = (from - centre).norm();
     const double end_radius = (to - centre).norm();
     if (start_radius < same_point) raise(AlarmNumber::NoArcRadius, "radius 0");

@@ -53,7 +53,7 @@ Vector3d imaged(const State& state, const Vector3d& programmed) {
 }
 
 Vector3d transformed(const State& state, const Vector3d& programmed) {
-  const Vector3d p = imaged(state, programmed);
+  Vector3d p = imaged(state, programmed);
   if (!state.rotation.is_active) return p;
   return turned(state.rotation, p, 1) + state.rotation.drift;
 }

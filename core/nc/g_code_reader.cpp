@@ -110,8 +110,10 @@ private:
     }
     const int code = static_cast<int>(word.value / (nano / tenths));
     is_dwell_ = is_dwell_ || code == 40;
-    if (apply_mode(code) || apply_frame(code, block, spot) || is_harmless_g(code, block, dialect_))
+    if (apply_mode(code) || apply_frame(code, block, spot) ||
+        is_harmless_g(code, block, dialect_)) {
       return;
+    }
     refuse_g(code, spot);
   }
 

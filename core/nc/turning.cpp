@@ -182,12 +182,13 @@ private:
     const std::string feed = word('F', step.feed, step.mode == LatheStep::Mode::Turning ? 4 : 1);
     for (const LatheHole& hole : step.holes) {
       if (step.mode == LatheStep::Mode::Milling) line("G0 " + word('C', hole.c, 4));
-      if (is_fanuc_)
+      if (is_fanuc_) {
         fanuc_cycle(step, hole, feed);
-      else if (hole.is_radial)
+      } else if (hole.is_radial) {
         plain_pecks(hole, feed);
-      else
+      } else {
         linuxcnc_cycle(step, hole, feed);
+      }
     }
   }
 
@@ -251,13 +252,14 @@ private:
 }  // namespace
 
 std::string lathe_text(const LatheProgram& program, LatheControl control) {
-  if (program.number < 1 || program.number > 9999)
+  if (program.number < 1 || program.number > 9999) {
     throw Error(
         ErrorCode::BadInput,
         "the program number is " + std::to_string(program.number) + "; 1 to 9999 is allowed",
         {.field = "/output/program",
          .value = std::to_string(program.number),
          .limit = "1 to 9999"});
+  }
   return Writer(program, control).run();
 }
 

@@ -109,8 +109,9 @@ struct SlabView {
 std::vector<SlabView> slabs(const Region& region) {
   std::vector<SlabView> views;
   for (std::size_t i = 0; i < region.cells.size(); ++i) {
-    if (views.empty() || region.cells[views.back().first].z0 != region.cells[i].z0)
+    if (views.empty() || region.cells[views.back().first].z0 != region.cells[i].z0) {
       views.push_back({i, i});
+    }
     views.back().end = i + 1;
   }
   return views;
@@ -121,10 +122,11 @@ std::vector<Interval> intervals(const Region& region, const SlabView& view, doub
   for (std::size_t i = view.first; i < view.end; ++i) {
     const Cell& cell = region.cells[i];
     const Interval one{radius_at(cell.inner, z), radius_at(cell.outer, z)};
-    if (!found.empty() && one.r0 - found.back().r1 <= vertex_tolerance)
+    if (!found.empty() && one.r0 - found.back().r1 <= vertex_tolerance) {
       found.back().r1 = std::max(found.back().r1, one.r1);
-    else
+    } else {
       found.push_back(one);
+    }
   }
   return found;
 }
@@ -144,17 +146,21 @@ std::vector<Segment> boundary(const Region& region) {
         has_above ? region.cells[views[k].first].z0 : region.cells[views[k - 1].first].z1;
     std::vector<Interval> below;
     std::vector<Interval> above;
-    if (has_below && region.cells[views[k - 1].first].z1 == z)
+    if (has_below && region.cells[views[k - 1].first].z1 == z) {
       below = intervals(region, views[k - 1], z);
+    }
     if (has_above) above = intervals(region, views[k], z);
-    for (const Interval& part : uncovered(below, above))
+    for (const Interval& part : uncovered(below, above)) {
       found.push_back({{part.r0, z}, {part.r1, z}, {}});
-    for (const Interval& part : uncovered(above, below))
+    }
+    for (const Interval& part : uncovered(above, below)) {
       found.push_back({{part.r1, z}, {part.r0, z}, {}});
+    }
     if (has_below && region.cells[views[k - 1].first].z1 != z) {
       const double end = region.cells[views[k - 1].first].z1;
-      for (const Interval& part : intervals(region, views[k - 1], end))
+      for (const Interval& part : intervals(region, views[k - 1], end)) {
         found.push_back({{part.r0, end}, {part.r1, end}, {}});
+      }
     }
   }
   std::erase_if(found, [](const Segment& segment) {
@@ -173,8 +179,9 @@ double left_turn(const Point& from, const Point& to) {
 std::size_t following(const std::vector<Segment>& all, const std::vector<char>& used,
                       const Segment& last) {
   double nearest = 4 * vertex_tolerance;
-  for (std::size_t i = 0; i < all.size(); ++i)
+  for (std::size_t i = 0; i < all.size(); ++i) {
     if (!used[i]) nearest = std::min(nearest, distance(all[i].start, last.end));
+  }
   std::size_t best = all.size();
   double best_turn = 0;
   const Point heading = direction_at(last, 1);
@@ -258,13 +265,15 @@ Segment arc_segment(const Point& start, const Point& end, double radius, Sense s
 std::vector<Segment> simplified(const std::vector<Segment>& segments) {
   std::vector<Segment> merged;
   for (const Segment& segment : segments) {
-    if (!merged.empty() && is_straight_on(merged.back(), segment))
+    if (!merged.empty() && is_straight_on(merged.back(), segment)) {
       merged.back().end = segment.end;
-    else
+    } else {
       merged.push_back(segment);
+    }
   }
-  if (segments.empty() || distance(segments.back().end, segments.front().start) > merge_tolerance)
+  if (segments.empty() || distance(segments.back().end, segments.front().start) > merge_tolerance) {
     return merged;
+  }
   while (merged.size() > 2 && is_straight_on(merged.back(), merged.front())) {
     merged.front().start = merged.back().start;
     merged.pop_back();
@@ -287,10 +296,11 @@ Region region_of(std::span<const Contour> contours) {
   std::vector<Stroke> strokes;
   for (const Contour& contour : contours) {
     for (const Segment& segment : contour) {
-      if (segment.arc)
+      if (segment.arc) {
         add_arc(strokes, segment);
-      else
+      } else {
         add_line(strokes, segment);
+      }
     }
   }
   std::vector<BoundaryPiece> pieces;

@@ -68,8 +68,9 @@ Crossings arc_arc(const Curve& p, const Curve& q, double z0, double z1) {
   for (const double sign : {-1.0, 1.0}) {
     const double h = e * uz - sign * f * ur;
     const double g = e * ur + sign * f * uz;
-    if (g * p.side >= -merge_tolerance && (g - dr) * q.side >= -merge_tolerance)
+    if (g * p.side >= -merge_tolerance && (g - dr) * q.side >= -merge_tolerance) {
       z[count++] = p.a.z + h;
+    }
   }
   if (count == 2 && z[0] > z[1]) std::swap(z[0], z[1]);
   for (int i = 0; i < count; ++i) add(found, z[i], z0, z1);

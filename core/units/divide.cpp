@@ -46,8 +46,9 @@ Parts parts_of(const Division& division) {
 bool is_taken_out(const Division& division, const Zone& zone, std::uint64_t covered) {
   for (std::size_t i = 0; i < division.removed.size(); ++i) {
     const Removed& one = division.removed[i];
-    if ((covered >> (i + 2) & 1) != 0 && one.kind == zone.kind && one.process == zone.process)
+    if ((covered >> (i + 2) & 1) != 0 && one.kind == zone.kind && one.process == zone.process) {
       return true;
+    }
   }
   return false;
 }

@@ -37,8 +37,9 @@ std::string label(const Unit& unit) {
 }
 
 std::size_t place_of(const std::vector<Entry>& entries, int wanted, const std::string& field) {
-  for (std::size_t i = 0; i < entries.size(); ++i)
+  for (std::size_t i = 0; i < entries.size(); ++i) {
     if (entries[i].role != Role::Inserted && entries[i].unit.number == wanted) return i;
+  }
   refuse("the program has no unit " + std::to_string(wanted) + "; it has 1 to " +
              std::to_string(entries.size()),
          field);
@@ -51,8 +52,9 @@ std::vector<Entry> applied(const Program& program, std::span<const Edit> edits) 
     const std::string at = "/edits/" + std::to_string(k);
     if (const auto* change = std::get_if<ChangeUnit>(&edits[k])) {
       Entry& entry = entries[place_of(entries, change->number, at + "/unit")];
-      if (entry.role == Role::Removed)
+      if (entry.role == Role::Removed) {
         refuse("unit " + std::to_string(change->number) + " is removed by the same edit", at);
+      }
       if (!entry.before) entry.before = entry.unit;
       entry.unit = change->unit;
       entry.unit.number = change->number;
@@ -82,7 +84,7 @@ void add(Region& sum, const Region& part) {
 /// The declared extension of an edited bar: kept while its end over the split stays where it was.
 Region kept_extension(const Program& program, const Entry& entry, const Region& raw) {
   const Unit& old = entry.before ? *entry.before : entry.unit;
-  const Region over = difference_of(old.region, old.core);
+  Region over = difference_of(old.region, old.core);
   if (is_empty(over)) return {};
   if (entry.role == Role::Old) return over;
   if (old.shape.empty() || entry.unit.shape.empty()) return {};
@@ -165,8 +167,9 @@ void explain(Program& program, const std::vector<Old>& old, const std::vector<Un
     if (one.is_used || !is_turned(*one.unit)) continue;
     double rebuilt = 0;
     for (const Unit& unit : made) {
-      if (unit.kind == one.unit->kind && unit.state == State::Auto)
+      if (unit.kind == one.unit->kind && unit.state == State::Auto) {
         rebuilt += common_volume(*one.unit, unit);
+      }
     }
     if (rebuilt > equal_volume) {
       program.notes.push_back(label(*one.unit) + " was rebuilt: " + std::to_string(rebuilt) +
@@ -213,10 +216,11 @@ private:
     for (std::size_t i = 0; i < first_; ++i) {
       Unit unit = entries_[i].unit;
       add(gone_, unit.core);
-      if (unit.state == State::Edited)
+      if (unit.state == State::Edited) {
         block(unit);
-      else
+      } else {
         unit.state = State::Frozen;
+      }
       result_.units.push_back(std::move(unit));
     }
   }
@@ -244,10 +248,11 @@ private:
         warn_of_feature(before_.product, entry.unit);
       }
       entry.unit.state = State::Edited;
-      if (i == first_)
+      if (i == first_) {
         result_.units.push_back(entry.unit);
-      else
+      } else {
         later_.push_back(entry.unit);
+      }
     }
   }
 
@@ -264,8 +269,9 @@ private:
     std::vector<Old> old;
     for (std::size_t i = first_; i < entries_.size(); ++i) {
       const Entry& entry = entries_[i];
-      if (entry.role == Role::Old && entry.unit.state != State::Edited)
+      if (entry.role == Role::Old && entry.unit.state != State::Edited) {
         old.push_back({&entry.unit});
+      }
     }
     match(made.units, old);
     for (const std::string& note : made.notes) result_.notes.push_back(note);
@@ -278,8 +284,9 @@ private:
   std::vector<Unit> features() {
     std::vector<Unit> edited;
     for (const std::vector<Unit>& units : {result_.units, later_}) {
-      for (const Unit& unit : units)
+      for (const Unit& unit : units) {
         if (!is_turned(unit) && unit.state == State::Edited) edited.push_back(unit);
+      }
     }
     const auto is_edited = [&](const Unit& unit) {
       return std::any_of(edited.begin(), edited.end(), [&](const Unit& other) {
@@ -289,8 +296,9 @@ private:
     std::vector<Unit> made;
     for (std::size_t i = first_; i < entries_.size(); ++i) {
       Unit& unit = entries_[i].unit;
-      if (is_turned(unit) || unit.state == State::Edited || entries_[i].role == Role::Removed)
+      if (is_turned(unit) || unit.state == State::Edited || entries_[i].role == Role::Removed) {
         continue;
+      }
       if (is_edited(unit)) continue;
       unit.state = State::Kept;
       made.push_back(unit);
@@ -301,8 +309,9 @@ private:
         return rest.kind == unit.kind && rest.feature == unit.feature;
       });
       if (is_done) continue;
-      if (std::optional<Unit> rest = rest_of_feature(result_, unit))
+      if (std::optional<Unit> rest = rest_of_feature(result_, unit)) {
         rests.push_back(std::move(*rest));
+      }
     }
     for (Unit& rest : rests) made.push_back(std::move(rest));
     return made;

@@ -103,10 +103,11 @@ std::vector<Segment> limit_of(const Region& region, Limit limit) {
     if (is_least ? !is_first : !is_last) continue;
     Segment next = segment_of(is_least ? cells[i].inner : cells[i].outer, cells[i].z0, cells[i].z1);
     if (!found.empty()) {
-      if (is_near(found.back().end, next.start))
+      if (is_near(found.back().end, next.start)) {
         next.start = found.back().end;
-      else
+      } else {
         found.push_back({found.back().end, next.start, {}});
+      }
     }
     found.push_back(next);
   }
@@ -142,8 +143,9 @@ Region figure_region(const Unit& unit) {
   const Segment& first = unit.shape.front();
   if (unit.is_closed || unit.kind == UnitKind::Groove) {
     Contour contour = unit.shape;
-    if (!is_near(contour.back().end, contour.front().start))
+    if (!is_near(contour.back().end, contour.front().start)) {
       contour.push_back({contour.back().end, contour.front().start, {}});
+    }
     return region_of(contour);
   }
   if (unit.kind == UnitKind::FaceFront || unit.kind == UnitKind::FaceBack) {

@@ -28,8 +28,9 @@ struct Limit {
 /// an end near a pole is the pole, and limits that are one take their z from a pole.
 Limit limit_of(const Curve& curve, double z) {
   if (is_arc(curve)) {
-    for (const double pole : {curve.a.z - curve.radius, curve.a.z + curve.radius})
+    for (const double pole : {curve.a.z - curve.radius, curve.a.z + curve.radius}) {
       if (std::abs(z - pole) <= merge_tolerance) return {pole, true};
+    }
   }
   return {z, false};
 }
@@ -45,10 +46,11 @@ std::vector<Cluster> clustered(std::vector<Limit> limits) {
   std::vector<Cluster> clusters;
   clusters.reserve(limits.size());
   for (const Limit& limit : limits) {
-    if (clusters.empty() || limit.z - clusters.back().z > merge_tolerance)
+    if (clusters.empty() || limit.z - clusters.back().z > merge_tolerance) {
       clusters.push_back({limit.z, limit});
-    else if (limit.is_pole && !clusters.back().chosen.is_pole)
+    } else if (limit.is_pole && !clusters.back().chosen.is_pole) {
       clusters.back().chosen = limit;
+    }
   }
   return clusters;
 }
@@ -91,8 +93,9 @@ public:
     for (std::size_t i = 0; i + 1 < clusters.size(); ++i) {
       const double z = clusters[i].chosen.z;
       std::erase_if(open, [&](const BoundaryPiece* piece) { return piece->z1 <= z; });
-      for (; next < boundary_.size() && boundary_[next].z0 <= z; ++next)
+      for (; next < boundary_.size() && boundary_[next].z0 <= z; ++next) {
         if (boundary_[next].z1 > z) open.push_back(&boundary_[next]);
+      }
       if (!open.empty()) slab(open, z, clusters[i + 1].chosen.z);
     }
     return std::move(result_);
@@ -107,8 +110,9 @@ private:
           {piece, radius_at(curve, z0), 0, radius_at(curve, z1), units::range(curve, z0, z1)});
     }
     cuts_.clear();
-    for (std::size_t i = 0; i < active_.size(); ++i)
+    for (std::size_t i = 0; i < active_.size(); ++i) {
       for (std::size_t j = i + 1; j < active_.size(); ++j) cross(active_[i], active_[j], z0, z1);
+    }
     std::sort(cuts_.begin(), cuts_.end(), [](const Cut& p, const Cut& q) { return p.z < q.z; });
     double from = z0;
     for (const Cut& cut : cuts_) {
@@ -185,8 +189,9 @@ bool is_continued(std::span<const Cell> below, std::span<const Cell> above) {
   const double z1 = above.front().z1;
   for (std::size_t i = 0; i < below.size(); ++i) {
     if (!is_same(below[i].inner, above[i].inner, z0, z1) ||
-        !is_same(below[i].outer, above[i].outer, z0, z1))
+        !is_same(below[i].outer, above[i].outer, z0, z1)) {
       return false;
+    }
   }
   return true;
 }
@@ -198,9 +203,10 @@ Overlay overlay(std::vector<BoundaryPiece> boundary) {
 }
 
 Overlay overlay(std::span<const Region* const> operands) {
-  if (operands.size() > overlay_limit)
+  if (operands.size() > overlay_limit) {
     throw Error(ErrorCode::Internal, "overlay of " + std::to_string(operands.size()) +
                                          " regions; at most " + std::to_string(overlay_limit));
+  }
   std::size_t count = 0;
   for (const Region* region : operands) count += region->cells.size();
   std::vector<BoundaryPiece> boundary;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/angle.hpp"
 #include "core/base/error.hpp"
 #include "core/units/figure.hpp"
 #include "core/units/overlay.hpp"
@@ -18,8 +19,9 @@ constexpr double least_depth = 0.01;  // [mm]
 constexpr std::size_t most_passes = 5000;
 constexpr double no_volume = 1e-4;  // [mm^3] that is nothing but rounding
 
-[[noreturn]] void refuse(const Unit& unit, std::size_t row, const char* key, double value,
-                         const std::string& limit) {
+void require(bool holds, const Unit& unit, std::size_t row, const char* key, double value,
+             const std::string& limit) {
+  if (holds) return;
   const std::string field = "/program/units/" + std::to_string(unit.number - 1) + "/tools/" +
                             std::to_string(row) + "/" + key;
   throw Error(ErrorCode::BadInput, field + " must be " + limit + " mm, is " + std::to_string(value),
@@ -28,12 +30,15 @@ constexpr double no_volume = 1e-4;  // [mm^3] that is nothing but rounding
 
 void check_row(const Unit& unit, std::size_t i) {
   const ToolRow& row = unit.tools[i];
-  if (!(row.nose_radius >= 0 && row.nose_radius <= 50))
-    refuse(unit, i, "nose_radius", row.nose_radius, "0 to 50");
-  if (!(row.depth_of_cut >= least_depth))
-    refuse(unit, i, "depth_of_cut", row.depth_of_cut, "at least 0.01");
-  if (!(row.finish_allowance >= 0 && row.finish_allowance <= 100))
-    refuse(unit, i, "finish_allowance", row.finish_allowance, "0 to 100");
+  const double R = row.nose_radius, depth = row.depth_of_cut, allowance = row.finish_allowance;
+  require(R >= 0 && R <= 50, unit, i, "nose_radius", R, "0 to 50");
+  require(depth >= least_depth, unit, i, "depth_of_cut", depth, "at least 0.01");
+  require(allowance >= 0 && allowance <= 100, unit, i, "finish_allowance", allowance, "0 to 100");
+}
+
+void check_count(const Unit& unit, std::size_t i, std::size_t passes) {
+  require(passes < most_passes, unit, i, "depth_of_cut", unit.tools[i].depth_of_cut,
+          "large enough for 5000 passes, in");
 }
 
 /// The way of a tool, built move by move.
@@ -63,9 +68,10 @@ std::vector<Segment> reversed(std::vector<Segment> rows) {
   std::reverse(rows.begin(), rows.end());
   for (Segment& row : rows) {
     std::swap(row.start, row.end);
-    if (row.arc)
+    if (row.arc) {
       row.arc->sense =
           row.arc->sense == Sense::Clockwise ? Sense::CounterClockwise : Sense::Clockwise;
+    }
   }
   return rows;
 }
@@ -126,10 +132,11 @@ void pass(Way& way, const Bar& bar, const std::vector<Segment>& skin, double c, 
 
 /// Along the skin from entry to end.
 void follow(Way& way, const Bar& bar, std::vector<Segment> skin, double safe, double R) {
-  if (!bar.is_outer)  // where the product is solid the nose goes nowhere, not along the axis
+  if (!bar.is_outer) {  // where the product is solid the nose goes nowhere, not along the axis
     std::erase_if(skin, [](const Segment& row) {
       return row.start.r < merge_tolerance && row.end.r < merge_tolerance;
     });
+  }
   if (skin.empty()) return;
   if (bar.way < 0) skin = reversed(std::move(skin));
   const Reach reach = reach_of(bar, R);
@@ -149,11 +156,6 @@ void follow(Way& way, const Bar& bar, std::vector<Segment> skin, double safe, do
   way.rapid({safe, reach.entry});
 }
 
-/// What there is to cut between two levels of r.
-Box work_between(const Region& region, double a, double b, double z0, double z1) {
-  return box(intersection_of(region, rectangle(std::min(a, b), std::max(a, b), z0, z1)));
-}
-
 /// `work_left`: of the region what no tool before has removed.
 Moves bar_moves(const Unit& unit, const Bar& bar, const Region& work_left, const ToolRow& row,
                 double allowance, const Region& stock, bool is_rough) {
@@ -167,15 +169,13 @@ Moves bar_moves(const Unit& unit, const Bar& bar, const Region& work_left, const
     const double sign = bar.is_outer ? -1 : 1;
     double last = bar.is_outer ? b.r1 : box(work_left).r0;
     const double goal = bar.is_outer ? b.r0 + allowance : b.r1 - allowance;
-    std::size_t count = 0;
-    while (sign * (goal - last) > merge_tolerance) {
-      if (++count > most_passes)
-        throw Error(ErrorCode::BadInput, "unit " + std::to_string(unit.number) +
-                                             " needs more than " + std::to_string(most_passes) +
-                                             " passes: the depth of cut is too small");
+    for (std::size_t count = 0; sign * (goal - last) > merge_tolerance; ++count) {
+      check_count(unit, 0, count);
       double level = last + sign * row.depth_of_cut;
       if (sign * (goal - level) < 0) level = goal;
-      const Box work = work_between(work_left, last, level, b.z0 - 1, b.z1 + 1);
+      const Region between =
+          rectangle(std::min(last, level), std::max(last, level), b.z0 - 1, b.z1 + 1);
+      const Box work = box(intersection_of(work_left, between));
       const double c = centre_at(bar, level, R);
       if (work.z1 - work.z0 > merge_tolerance && c >= 0) pass(way, bar, skin, c, safe, work, R);
       last = level;
@@ -251,12 +251,12 @@ void turn_bar(const Program& program, const Unit& unit, TurningPaths& paths) {
     step.moves = bar_moves(unit, bar, work_left, row, allowance, program.stock, is_rough);
     paths.steps.push_back(std::move(step));
   }
-  const double fall = steepest_fall(bar);
-  if (fall > 3 * 3.14159265358979 / 180)
-    paths.notes.push_back("unit " + std::to_string(unit.number) +
-                          ": the product falls behind the nose at up to " +
-                          std::to_string(static_cast<int>(std::lround(fall * 180 / 3.14159265))) +
-                          " deg: the trailing edge of the tool must clear that");
+  const double fall = degrees(steepest_fall(bar));
+  if (fall > 3) {
+    paths.notes.push_back(
+        "unit " + std::to_string(unit.number) + ": the product falls behind the nose at up to " +
+        std::to_string(std::lround(fall)) + " deg: the trailing edge of the tool must clear that");
+  }
 }
 
 /// How deep a face may be turned: what an edit wants of the product is not cut (design 1.8-o).
@@ -290,8 +290,7 @@ void turn_face(const Program& program, const Unit& unit, TurningPaths& paths) {
     Way way({outside, safe});
     double level = i == 0 ? top : goal - sign * row.depth_of_cut;
     for (std::size_t count = 0; sign * (goal - level) > merge_tolerance; ++count) {
-      if (count > most_passes)
-        refuse(unit, i, "depth_of_cut", row.depth_of_cut, "large enough for 5000 passes");
+      check_count(unit, i, count);
       level += sign * row.depth_of_cut;
       if (sign * (goal - level) < 0) level = goal;
       const double c = level - sign * R;

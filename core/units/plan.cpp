@@ -32,8 +32,9 @@ void validate(const PlanJob& job) {
   check(p.radial_allowance, 0, 1000, "parameters/radial_allowance");
   check(p.end_allowance, 0, 1000, "parameters/end_allowance");
   check(p.smallest_boring_bar, 0, 1000, "parameters/smallest_boring_bar");
-  if (is_empty(job.product.shadow))
+  if (is_empty(job.product.shadow)) {
     throw Error(ErrorCode::BadInput, "the product has no half section", {.field = "/product"});
+  }
   const Box s = box(job.product.shadow);
   check(s.r1, 1e-3, largest, "product/shadow");
   check(std::abs(s.z0), 0, 1e-3, "product/shadow");
@@ -128,8 +129,9 @@ Program plan(const PlanJob& job) {
   Divided divided = divide(division);
   program.units = std::move(divided.units);
   program.notes = std::move(divided.notes);
-  for (Unit& unit : feature_units(program.product, program.split))
+  for (Unit& unit : feature_units(program.product, program.split)) {
     program.units.push_back(std::move(unit));
+  }
   explain_rest(program);
   put_in_order(program.units);
   number(program.units);

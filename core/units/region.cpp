@@ -42,8 +42,9 @@ double volume(const Region& region) {
 
 double area(const Region& region) {
   double sum = 0;
-  for (const Cell& cell : region.cells)
+  for (const Cell& cell : region.cells) {
     sum += integral(cell.outer, cell.z0, cell.z1) - integral(cell.inner, cell.z0, cell.z1);
+  }
   return sum;
 }
 
@@ -75,8 +76,9 @@ bool covers(const Region& region, const Point& point, double margin) {
   for (const Cell& cell : region.cells) {
     if (point.z < cell.z0 || point.z > cell.z1) continue;
     if (point.r >= radius_at(cell.inner, point.z) - margin &&
-        point.r <= radius_at(cell.outer, point.z) + margin)
+        point.r <= radius_at(cell.outer, point.z) + margin) {
       return true;
+    }
   }
   return false;
 }
@@ -97,8 +99,10 @@ std::vector<Region> pieces(const Region& region) {
     const std::size_t end = next < region.cells.size() ? slab_end(region, next) : next;
     for (std::size_t i = first; i < next; ++i) {
       for (std::size_t j = next; j < end; ++j) {
-        if (region.cells[i].z1 == region.cells[j].z0 && is_joined(region.cells[i], region.cells[j]))
+        if (region.cells[i].z1 == region.cells[j].z0 &&
+            is_joined(region.cells[i], region.cells[j])) {
           parent[root_of(parent, j)] = root_of(parent, i);
+        }
       }
     }
     first = next;

@@ -52,10 +52,12 @@ Comparison compare(const MilledFace& edited, const MilledFace& feature) {
 
 std::optional<Comparison> comparison(const Product& product, const Unit& unit) {
   if (!unit.feature) return std::nullopt;
-  if (unit.kind == UnitKind::Hole && unit.hole && *unit.feature < product.holes.size())
+  if (unit.kind == UnitKind::Hole && unit.hole && *unit.feature < product.holes.size()) {
     return compare(*unit.hole, product.holes[*unit.feature]);
-  if (unit.kind == UnitKind::FaceMill && unit.face && *unit.feature < product.faces.size())
+  }
+  if (unit.kind == UnitKind::FaceMill && unit.face && *unit.feature < product.faces.size()) {
     return compare(*unit.face, product.faces[*unit.feature]);
+  }
   return std::nullopt;
 }
 
@@ -91,8 +93,9 @@ void share_features(Program& program) {
     double before = 0;
     for (std::size_t j = 0; j < i; ++j) {
       const Unit& other = program.units[j];
-      if (is_of_same_feature(unit, other))
+      if (is_of_same_feature(unit, other)) {
         before = std::max(before, comparison(program.product, other)->share);
+      }
     }
     unit.volume = std::max(0.0, own->share - before) * feature_volume(program.product, unit);
   }
@@ -108,15 +111,17 @@ std::optional<Unit> rest_of_feature(const Program& program, const Unit& edited) 
     return unit.state != State::Edited && is_same(unit);
   };
   if (std::any_of(program.units.begin(), program.units.end(), finishes) ||
-      std::any_of(program.removed.begin(), program.removed.end(), is_same))
+      std::any_of(program.removed.begin(), program.removed.end(), is_same)) {
     return std::nullopt;
+  }
   Unit rest = edited;
   rest.state = State::Auto;
   rest.notes.clear();
-  if (edited.kind == UnitKind::Hole)
+  if (edited.kind == UnitKind::Hole) {
     rest.hole = program.product.holes[*edited.feature];
-  else
+  } else {
     rest.face = program.product.faces[*edited.feature];
+  }
   rest.tools = usual_tools(rest);
   return rest;
 }

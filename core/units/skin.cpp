@@ -51,9 +51,10 @@ std::vector<Interval> free_on(const Bar& bar, const std::vector<Segment>& skin, 
       const double low = std::min(row.start.z, row.end.z);
       const double high = std::max(row.start.z, row.end.z);
       if (z < low || z > high || high - low < merge_tolerance) continue;
-      if (!row.arc)
+      if (!row.arc) {
         return row.start.r +
                (row.end.r - row.start.r) * (z - row.start.z) / (row.end.z - row.start.z);
+      }
       const double h =
           row.arc->radius * row.arc->radius - (z - row.arc->centre.z) * (z - row.arc->centre.z);
       const double middle = (row.start.r + row.end.r) / 2;
@@ -68,10 +69,11 @@ std::vector<Interval> free_on(const Bar& bar, const std::vector<Segment>& skin, 
     const std::optional<double> h = height((cuts[i] + cuts[i + 1]) / 2);
     if (h && (is_outer ? *h > r + merge_tolerance : *h < r - merge_tolerance)) continue;
     if (h && !is_outer && *h < merge_tolerance) continue;  // solid
-    if (!free.empty() && free.back().z1 >= cuts[i] - merge_tolerance)
+    if (!free.empty() && free.back().z1 >= cuts[i] - merge_tolerance) {
       free.back().z1 = cuts[i + 1];
-    else
+    } else {
       free.push_back({cuts[i], cuts[i + 1]});
+    }
   }
   return free;
 }

@@ -28,16 +28,18 @@ Contour hull(std::vector<Point> points) {
   for (int half = 0; half < 2; ++half) {
     const std::size_t base = loop.size();
     for (const Point& p : points) {
-      while (loop.size() >= base + 2 && turn(loop[loop.size() - 2], loop.back(), p) <= 0)
+      while (loop.size() >= base + 2 && turn(loop[loop.size() - 2], loop.back(), p) <= 0) {
         loop.pop_back();
+      }
       loop.push_back(p);
     }
     loop.pop_back();
     std::reverse(points.begin(), points.end());
   }
   Contour contour;
-  for (std::size_t i = 0; i < loop.size(); ++i)
+  for (std::size_t i = 0; i < loop.size(); ++i) {
     contour.push_back({loop[i], loop[(i + 1) % loop.size()], {}});
+  }
   return contour;
 }
 
@@ -124,9 +126,10 @@ void add(std::vector<Region>& parts, const Tool& tool, const Segment& path) {
   Tool shank = tool;
   const double turn = length(path) / path.arc->radius / n;
   shank.R = std::max(0.0, tool.R - path.arc->radius * (1 - std::cos(turn / 2)));
-  for (int i = 0; i < n; ++i)
+  for (int i = 0; i < n; ++i) {
     add_line(parts, shank, point_at(path, static_cast<double>(i) / n),
              point_at(path, static_cast<double>(i + 1) / n));
+  }
 }
 
 Region drilled(const TurningStep& step) {
@@ -143,8 +146,9 @@ Region swept(const TurningStep& step) {
   if (step.kind == TurningStep::Kind::Drill) return drilled(step);
   const Tool tool{step.tool.nose_radius, step.tool.depth_of_cut, step.width, step.approach};
   std::vector<Region> parts;
-  for (const TurningMove& move : step.moves)
+  for (const TurningMove& move : step.moves) {
     if (move.kind == TurningMove::Kind::Feed) add(parts, tool, move.path);
+  }
   return union_of(parts);
 }
 

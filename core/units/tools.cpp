@@ -109,8 +109,9 @@ double narrowness(const MilledFace& face) {
       continue;
     }
     const Eigen::Vector3d out = (edge.start + edge.end) / 2 - edge.centre;
-    if (out.norm() > 1e-9)
+    if (out.norm() > 1e-9) {
       points.push_back(edge.centre + (edge.start - edge.centre).norm() * out.normalized());
+    }
   }
   Eigen::Vector3d twice_area = Eigen::Vector3d::Zero();
   double length = 0;

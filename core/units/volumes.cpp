@@ -20,8 +20,9 @@ double left_of_feature(const Program& program, const Removed& removed) {
   if (removed.kind == UnitKind::Hole) left = product.holes[*removed.feature].volume;
   if (removed.kind == UnitKind::FaceMill) left = product.faces[*removed.feature].volume;
   if (removed.kind == UnitKind::Unexplained) left = product.remainders[*removed.feature].volume;
-  for (const Unit& unit : program.units)
+  for (const Unit& unit : program.units) {
     if (unit.kind == removed.kind && unit.feature == removed.feature) left -= unit.volume;
+  }
   return std::max(left, 0.0);
 }
 
@@ -60,8 +61,9 @@ Volumes measured_volumes(const Program& program) {
       return other.kind == one.kind && other.feature == one.feature;
     };
     if (std::none_of(program.removed.begin(),
-                     program.removed.begin() + static_cast<std::ptrdiff_t>(i), is_same))
+                     program.removed.begin() + static_cast<std::ptrdiff_t>(i), is_same)) {
       v.left += left_of_feature(program, one);
+    }
   }
   return v;
 }

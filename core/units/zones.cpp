@@ -29,12 +29,14 @@ Around around(const Region& shadow, double far) {
     const Curve edge{.a = {far, cell.z0}, .b = {far, cell.z1}};
     const bool is_first = i == 0 || cells[i - 1].z0 != cell.z0;
     const bool is_last = i + 1 == cells.size() || cells[i + 1].z0 != cell.z0;
-    if (is_first && range(cell.inner, cell.z0, cell.z1).max > merge_tolerance)
+    if (is_first && range(cell.inner, cell.z0, cell.z1).max > merge_tolerance) {
       found.inner.cells.push_back({cell.z0, cell.z1, axis, cell.inner});
-    if (is_last)
+    }
+    if (is_last) {
       found.outer.cells.push_back({cell.z0, cell.z1, cell.outer, edge});
-    else
+    } else {
       found.between.cells.push_back({cell.z0, cell.z1, cell.outer, cells[i + 1].inner});
+    }
   }
   return found;
 }
@@ -84,8 +86,9 @@ void add_split(std::vector<Zone>& found, UnitKind kind, const Region& region, do
   const Region first = below(region, z);
   const Region second = above(region, z);
   if (is_empty(first) || is_empty(second)) {
-    if (!is_empty(region))
+    if (!is_empty(region)) {
       found.push_back({.kind = kind, .process = is_empty(second) ? 1 : 2, .region = region});
+    }
     return;
   }
   const std::size_t n = found.size();
@@ -130,8 +133,9 @@ std::optional<Hole> axis_hole(const Region& bore, bool front_open, bool back_ope
   hole.start = {0, 0, near_end(cells.front())};
   if (front_open && back_open) {
     double narrowest = HUGE_VAL;
-    for (const Cell& cell : cells)
+    for (const Cell& cell : cells) {
       narrowest = std::min(narrowest, range(cell.outer, cell.z0, cell.z1).min);
+    }
     if (2 * narrowest >= smallest_bar) return std::nullopt;
     hole.diameter = 2 * narrowest;
     hole.bottom = HoleBottom::Through;
@@ -143,14 +147,17 @@ std::optional<Hole> axis_hole(const Region& bore, bool front_open, bool back_ope
     const double r = radius_at(wall.outer, far_end(wall));
     if (!has_cone && (!is_straight(wall) || 2 * r >= smallest_bar)) return std::nullopt;
     if (has_cone &&
-        std::abs(radius_at(cells.back().outer, near_end(cells.back())) - r) > equal_radius)
+        std::abs(radius_at(cells.back().outer, near_end(cells.back())) - r) > equal_radius) {
       return std::nullopt;
+    }
     hole.diameter = 2 * r;
     hole.bottom = has_cone ? HoleBottom::Cone : HoleBottom::Flat;
     hole.depth = std::abs(far_end(wall) - hole.start.z());
-    for (const Cell& cell : std::span(cells).first(cells.size() - (has_cone ? 1 : 0)))
-      if (2 * range(cell.outer, cell.z0, cell.z1).min < hole.diameter - 2 * equal_radius)
+    for (const Cell& cell : std::span(cells).first(cells.size() - (has_cone ? 1 : 0))) {
+      if (2 * range(cell.outer, cell.z0, cell.z1).min < hole.diameter - 2 * equal_radius) {
         return std::nullopt;  // a neck before it
+      }
+    }
   }
   hole.steps = {{hole.diameter, hole.diameter, hole.depth}};
   return hole;
@@ -171,11 +178,12 @@ void add_bore(std::vector<Zone>& found, const Region& bore, bool front_open, boo
                      .hole = std::move(hole)});
   }
   if (is_empty(rest)) return;
-  if (front_open && back_open)
+  if (front_open && back_open) {
     add_split(found, UnitKind::BarInner, rest, split.inner, split.inner_overlap);
-  else
+  } else {
     found.push_back(
         {.kind = UnitKind::BarInner, .process = front_open ? 1 : 2, .region = std::move(rest)});
+  }
 }
 
 }  // namespace
