@@ -189,7 +189,9 @@ TEST_F(LoopbackJobs, ProgressIsToldTwiceASecondAndCancelStopsTheWork) {
   EXPECT_EQ(code(answer), "cancelled");
   ASSERT_GE(times.size(), 3u);
   for (const double fraction : fractions) EXPECT_TRUE(fraction >= 0 && fraction <= 1) << fraction;
+  const auto cancelled = Clock::now();
   EXPECT_TRUE(eventually([&] { return client_->status(1s).at(0).running == 0; }));
+  EXPECT_LT(Clock::now() - cancelled, slowness * 2s);
   EXPECT_EQ(code(client_->ask(by_name().dump(), "json")), "ok");
 }
 
@@ -223,7 +225,7 @@ TEST_F(LoopbackJobs, TerminatedTwiceItCancels) {
   service_->signal(SIGTERM);
   std::this_thread::sleep_for(50ms);
   service_->signal(SIGTERM);
-  EXPECT_EQ(service_->wait(20s), 0);
+  EXPECT_EQ(service_->wait(slowness * 5s), 0);
   asks.join();
   EXPECT_EQ(code(answer), "cancelled");
 }
@@ -265,7 +267,7 @@ TEST_F(LoopbackJobs, AControllerInPlainCAsksWithoutJson) {
     return Process({"/bin/sh", "-c", "exec \"$@\" >" + out, "sh", CONTROLLER, "-d", domain, "-t",
                     "20", "tube-40", "H1", "inner", "entry", tool, "0.5"},
                    folder_ / "controller.log")
-        .wait(90s);
+        .wait(slowness * 30s);
   };
   EXPECT_EQ(run("12"), 0);
   Json job = by_name();
@@ -293,10 +295,10 @@ TEST_F(Loopback, AClientOnAnotherDdsAsksWithTheSameIdl) {
   const std::string out = (folder_ / "centres").string();
   const std::string domain = std::to_string(domain_);
   const auto run = [&](const std::string& tool, const std::string& points) {
-    return Process({"/bin/sh", "-c", "exec \"$@\" >" + out, "sh", FAST_CLIENT, domain, "60",
-                    "tube-40", "H1", tool, "0.5", points},
+    return Process({"/bin/sh", "-c", "exec \"$@\" >" + out, "sh", FAST_CLIENT, domain,
+                    std::to_string(slowness * 20), "tube-40", "H1", tool, "0.5", points},
                    folder_ / "fast.log")
-        .wait(90s);
+        .wait(slowness * 30s);
   };
   EXPECT_EQ(run("12", "72"), 0);
   expect_centres(out, lasting(client.ask(by_name().dump(), "json")).at("centres"));

@@ -16,6 +16,13 @@ namespace ridgeline {
 
 using namespace std::chrono_literals;
 
+/// Times as long as in the release that work may take in a build for the sanitizers.
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr int slowness = 5;
+#else
+inline constexpr int slowness = 1;
+#endif
+
 /// A program started by a test, killed with it at the latest.
 class Process {
 public:
