@@ -3,6 +3,9 @@
 #include <httplib.h>
 
 #include <algorithm>
+#include <functional>
+#include <optional>
+#include <stop_token>
 
 #include "clients/client.hpp"
 #include "clients/ridgeline/serve_page.hpp"
@@ -154,7 +157,13 @@ int Gateway::bind(int port) {
 }
 
 void Gateway::run() {
-  const std::stop_callback end(session_.interrupt().token(), [this] { server_->stop(); });
+  // stop() does nothing before the server runs. It makes its threads once it does.
+  const std::function<void()> stop = [this] { server_->stop(); };
+  std::optional<std::stop_callback<std::function<void()>>> interrupted;
+  server_->new_task_queue = [&] {
+    interrupted.emplace(session_.interrupt().token(), stop);
+    return new httplib::ThreadPool(CPPHTTPLIB_THREAD_POOL_COUNT);
+  };
   server_->listen_after_bind();
 }
 

@@ -60,6 +60,10 @@ def computes(browser, job):
         check(status == 200 and "<html" in text[:200] and "sandbox" in headers["Content-Security-Policy"], text[:200])
 
 
+def start_gateway():
+    return subprocess.Popen([ridgeline, "serve", "--port", "0"], env=environment, stdout=subprocess.PIPE, text=True)
+
+
 def shows(browser):
     status, text, headers = browser.ask("GET", "/")
     check(status == 200 and "<title>Ridgeline" in text, text[:200])
@@ -72,6 +76,17 @@ def shows(browser):
     check({"kind": "tool", "name": "t12"}.items() <= json.loads(text)["definitions"][0].items(), text)
 
 
+def ends_however_early():
+    for _ in range(5):
+        gateway = start_gateway()
+        gateway.stdout.readline()
+        gateway.send_signal(signal.SIGTERM)
+        try:
+            check(gateway.wait(timeout=60) == 130, "interrupted as it began: not exit status 130")
+        finally:
+            gateway.kill()
+
+
 def main():
     with open(root + "/clients/examples/inline.json", encoding="utf-8") as file:
         job = file.read()
@@ -82,7 +97,8 @@ def main():
     gateway = None
     try:
         subprocess.run([ridgeline, "library", "put", work + "/tool.json"], env=environment, check=True, stdout=subprocess.DEVNULL)
-        gateway = subprocess.Popen([ridgeline, "serve", "--port", "0"], env=environment, stdout=subprocess.PIPE, text=True)
+        ends_however_early()
+        gateway = start_gateway()
         browser = Browser(int(re.fullmatch(r"http://127\.0\.0\.1:(\d+)/\n", gateway.stdout.readline())[1]))
         shows(browser)
         computes(browser, job)
