@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 
 #include <csignal>
+#include <cstdio>
+#include <exception>
 #include <memory>
 
 #include "clients/manual/manual.hpp"
@@ -96,6 +98,11 @@ int run(int argc, char** argv) {
 }  // namespace ridgeline::command
 
 int main(int argc, char** argv) {
-  ridgeline::jobs::keep_freed_memory();
-  return ridgeline::command::run(argc, argv);
+  try {
+    ridgeline::jobs::keep_freed_memory();
+    return ridgeline::command::run(argc, argv);
+  } catch (const std::exception& error) {  // no memory, or no thread
+    std::fprintf(stderr, "ridgeline: %s\n", error.what());
+    return static_cast<int>(ridgeline::command::ExitStatus::Refused);
+  }
 }
