@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 // crosses each at most once.
 struct GridEdge {
   int i, j, direction;
-  auto operator<=>(const GridEdge&) const = default;
+  auto operator<=>(const GridEdge&) const = default;  // NOLINT(modernize-use-nullptr): no pointer
 };
 
 // Sampled field with a border of +1 outside the rectangle, which closes the curves.

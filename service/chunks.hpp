@@ -13,7 +13,7 @@ namespace ridgeline::wire {
 
 /// Most payload of one sample [bytes]: small enough for memory that is never mapped anew, large
 /// enough for the throughput of the middleware (docs/dds.md).
-inline constexpr std::size_t chunk_bytes = 192 * 1024;
+inline constexpr std::size_t chunk_bytes = 192UL * 1024;
 /// Most numbers that one answer may hold.
 inline constexpr std::uint64_t max_numbers = 1ULL << 31;
 

@@ -17,11 +17,13 @@
 #include "step/reading.hpp"
 
 // Read by the address sanitizer: Open CASCADE turns faults into its exceptions, or the process ends
-// by the signal, as it does without the sanitizer.
+// by the signal, as it does without the sanitizer. The name is the sanitizer's.
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 extern "C" const char* __asan_default_options();
 extern "C" const char* __asan_default_options() {
   return "handle_segv=0:handle_sigbus=0:handle_sigfpe=0";
 }
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
 
 namespace {
 

@@ -36,7 +36,8 @@ Interrupt::Interrupt() {
 
 Interrupt::~Interrupt() {
   done_ = true;
-  pthread_kill(waiter_.native_handle(), SIGTERM);  // blocked in every thread: only wakes sigwait
+  // Blocked in every thread: only wakes sigwait. NOLINTNEXTLINE(bugprone-bad-signal-to-kill-thread)
+  pthread_kill(waiter_.native_handle(), SIGTERM);
   waiter_.join();
 }
 

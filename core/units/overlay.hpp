@@ -76,8 +76,9 @@ private:
 template <class Choose>
 Region select(const Overlay& overlay, const Choose& choose) {
   detail::RegionBuilder builder;
-  for (const OverlayCell& cell : overlay.cells)
+  for (const OverlayCell& cell : overlay.cells) {
     if (choose(cell.covered)) builder.add(cell);
+  }
   return builder.finish();
 }
 
