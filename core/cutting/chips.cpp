@@ -32,6 +32,7 @@ Earlier earlier_at(const Scene& scene, const Edge& edge, const Aim& aim, std::in
 
   Earlier earlier;
   earlier.ts = edge.r + f * b - std::sqrt(std::max(root, 0.0));
+  if (scene.around.is_still) return earlier;
   const double along = edge.r - earlier.ts;
   const double across = f * scene.cos_phi;
   const double turn = std::atan2(across * aim.c, along * edge.element->sin_q + across * aim.s);

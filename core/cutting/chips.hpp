@@ -57,6 +57,7 @@ struct ToothChips {
 struct Around {
   double reach = 0;         ///< [mm]
   Deflections centre = {};  ///< of one tooth period of equal teeth; empty: none at all
+  bool is_still = false;    ///< no deflection at all, as of a rigid tool: theta_o is not needed
 };
 
 /// Every chip that can be cut while the deflection stays within `around`. A periodic cutter needs

@@ -103,14 +103,18 @@ Iteration::Iteration(const Compliance& compliance, double S, IterateOptions opti
 
 // Searches the chips for the deflection in use; the memory of the table before serves again. Of
 // equal teeth that begin from a deflection, only the chips round that, which may still change by
-// `change`, or by `margin` of itself where that is less.
+// `change`, or by `margin` of itself where that is less. The rigid method needs those that a tool
+// cuts which does not give way, and no others.
 void Iteration::make_room(const Cut& cut, const Deflections& D, double change, double margin) {
   constexpr double least_reach = 0.02;
   constexpr double least_change = 0.001;
   constexpr double further = 1.5;
   const double used = greatest_deflection(cut, D);
   Around around;
-  if (is_centred_) {
+  if (is_rigid_) {
+    around.reach = cut.cutter.offset;
+    around.is_still = around.reach == 0;
+  } else if (is_centred_) {
     around = {std::max(least_change, std::min(change, margin * used)), D};
   } else {
     around.reach = std::max(least_reach, further * used);
@@ -132,6 +136,7 @@ Prediction Iteration::solve(const Cut& cut, const Eigen::Matrix2d& axes, const D
   axes_ = axes;
   cut_scale_ = edge_scale_ = 1;
   Deflections D1 = resampled(start, samples_);
+  is_rigid_ = start.empty() && options_.max_loops == 1;
   is_centred_ = !start.empty() && options_.span == Span::Pitch && is_periodic(cut.cutter) &&
                 cut.samples % teeth(cut.cutter) == 0;
   make_room(cut, D1, usual_changes * change_, first_margin);
@@ -143,7 +148,7 @@ Prediction Iteration::solve(const Cut& cut, const Eigen::Matrix2d& axes, const D
 
 void Iteration::adopt(const Cut& cut, Deflections D) {
   cut_scale_ = edge_scale_ = 1;
-  is_centred_ = false;
+  is_centred_ = is_rigid_ = false;
   make_room(cut, D, 0, first_margin);
   span_ = Span::Revolution;
   revolution_ = revolution_force(table_, D, span_);
@@ -153,11 +158,14 @@ void Iteration::adopt(const Cut& cut, Deflections D) {
 Prediction Iteration::scaled(double cut_scale, double edge_scale) {
   Deflections D = D_;  // of a whole revolution, if another method found it
   D.resize(static_cast<std::size_t>(samples_));
+  if (is_rigid_) D.assign(D.size(), Eigen::Vector2d::Zero());
   const double cut_change = cut_scale / cut_scale_;
   const double edge_change = edge_scale / edge_scale_;
   cut_scale_ = cut_scale;
   edge_scale_ = edge_scale;
-  if (greatest_deflection(table_.cut, D, table_.around.centre) > table_.around.reach) {
+  const bool has_room =
+      is_rigid_ || greatest_deflection(table_.cut, D, table_.around.centre) <= table_.around.reach;
+  if (!has_room) {
     make_room(Cut(table_.cut), D, std::numeric_limits<double>::infinity(), next_margin);
   } else {
     scale_forces(table_, cut_change, edge_change);

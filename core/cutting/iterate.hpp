@@ -85,7 +85,8 @@ public:
   /// and solve() go on from.
   void adopt(const Cut& cut, Deflections D);
 
-  /// The last cut again with its forces scaled, from its own deflection: K_c and K_e times these.
+  /// The last cut again with its forces scaled, from its own deflection (the rigid method: from
+  /// none): K_c and K_e times these.
   Prediction scaled(double cut_scale, double edge_scale);
 
 private:
@@ -107,6 +108,7 @@ private:
   double away_ = 0;  // how far the loops of this cut went from where they began [mm]
   double change_ = std::numeric_limits<double>::infinity();  // the same, of the cuts lately
   bool is_centred_ = false;  // the chips are those round a deflection
+  bool is_rigid_ = false;    // one loop from no deflection
 };
 
 }  // namespace ridgeline::cutting

@@ -156,6 +156,29 @@ TEST(Along, TheRigidMethodHasNoMemory) {
   for (const StationError& station : path) EXPECT_NEAR(*station.e, *alone.e, 1e-12);
 }
 
+// The spread by its definition: the rigid method again with other coefficients, a tenth up and down.
+TEST(Along, TheSpreadOfTheRigidMethodIsThatOfOtherCoefficients) {
+  const Example example;
+  AlongOptions options;
+  options.method = Method::Rigid;
+  options.uncertainty = Uncertainty{0.1, 0.2, 0.1};
+  const auto path =
+      along(example.course, {example.station}, example.compliance, example.S, options);
+  const auto error = [&](double cutting, double edge) {
+    Cut cut = example.cut;
+    tool::Coefficients& k = cut.coefficients;
+    for (double* K : {&k.Ktc, &k.Krc, &k.Kac}) *K *= cutting;
+    for (double* K : {&k.Kte, &k.Kre, &k.Kae}) *K *= edge;
+    return *rigid(cut, example.compliance, example.S, Span::Pitch).e;
+  };
+  const double by_cutting = (error(1.1, 1) - error(0.9, 1)) / 0.2;
+  const double by_edge = (error(1, 1.1) - error(1, 0.9)) / 0.2;
+  const double expected =
+      std::hypot(0.1 * by_cutting, 0.2 * by_edge, 0.1 * (by_cutting + by_edge));
+  EXPECT_GT(expected, 1e-4);
+  EXPECT_NEAR(path[0].spread, expected, 1e-9);
+}
+
 TEST(Along, TheTimeDomainAlongAPathIsTheTimeDomainOfEachStation) {
   const Example example;
   AlongOptions options;
