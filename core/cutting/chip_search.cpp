@@ -65,7 +65,9 @@ std::optional<Later> later(const Scene& scene, const Edge& edge, const Before& b
   const double slope =
       cutter.lag == LagLaw::ConstantLead ? sin_q * scene.tan_helix : scene.tan_helix / (1 + cos_q);
   const double lean = is_square ? 0 : slope * f / r;
-  const double lowest = 1 + std::cos(std::min(std::acos(cos_q) + 2 * f / r, pi - 0.01));
+  constexpr double least_lowest = 5e-5;  // 1 + cos q, 0.01 from the shank
+  const double lowest =
+      std::max(1 + cos_q * std::cos(2 * f / r) - sin_q * std::sin(2 * f / r), least_lowest);
   const double bend = is_square ? 0 : std::abs(scene.tan_helix) / (lowest * lowest);
   const double turn = f / circle;
   return Later{per_radian * f * scene.cos_phi / (r * sin_q),
@@ -103,7 +105,7 @@ public:
     const Eigen::Vector2d* centre = scene_.centre.data();
     const Eigen::Vector2d was = centre[below] + frac * (centre[below + 1] - centre[below]);
     const Eigen::Vector2d is = scene_.at(sample);
-    return aim.N.x() * (is.x() - was.x()) + aim.N.y() * (is.y() - was.y()) + slack_;
+    return sin_q_ * (aim.s * (is.y() - was.y()) - aim.c * (is.x() - was.x())) + slack_;
   }
 
 private:
@@ -114,24 +116,113 @@ private:
   double far_ = 0;    // theta_o from a tooth period before theta, at most [samples]
 };
 
-bool is_in_stock(const Scene& scene, const Eigen::Vector3d& P) {
-  const double reach = scene.around.reach;
-  const Stock& stock = scene.cut.stock;
-  const std::size_t faces = stock.faces.size();
-  for (std::size_t i = faces; i < scene.boundaries.size(); ++i) {
-    if (!is_near(scene.boundaries[i], P, reach)) return false;
+// The stock as one element meets it.
+class Level {
+public:
+  Level(const Scene& scene, double z) : scene_(scene), z_(z) {
+    slices_.reserve(scene.boundaries.size());
+    for (const Boundary& boundary : scene.boundaries) slices_.emplace_back(boundary, z);
   }
-  const bool all = stock.combine == Combine::All;
-  bool inside = all || faces == 0;
-  for (std::size_t i = 0; i < faces; ++i) {
-    const bool near = is_near(scene.boundaries[i], P, reach);
-    if (all && !near) return false;
-    inside = inside || near;
+
+  /// May the element be in the stock at (x, y), give or take the reach?
+  bool is_in_stock(double x, double y) const {
+    const double reach = scene_.around.reach;
+    const Stock& stock = scene_.cut.stock;
+    const std::size_t faces = stock.faces.size();
+    for (std::size_t i = faces; i < slices_.size(); ++i) {
+      if (!slices_[i].is_near(x, y, reach)) return false;
+    }
+    const bool all = stock.combine == Combine::All;
+    bool inside = all || faces == 0;
+    for (std::size_t i = 0; i < faces; ++i) {
+      const bool near = slices_[i].is_near(x, y, reach);
+      if (all && !near) return false;
+      inside = inside || near;
+    }
+    if (!inside || !stock.map) return inside;
+    const Eigen::Vector3d p = stock.map_origin + stock.map_axes * Eigen::Vector3d(x, y, z_);
+    const double sunk = reach * stock.map_axes.row(2).head<2>().norm();  // of a tilted tool
+    return p.z() - sunk <= greatest_height(*stock.map, p.x(), p.y(), reach);
   }
-  if (!inside || !stock.map) return inside;
-  const Eigen::Vector3d p = stock.map_origin + stock.map_axes * P;
-  const double sunk = reach * stock.map_axes.row(2).head<2>().norm();  // of a tilted tool
-  return p.z() - sunk <= greatest_height(*stock.map, p.x(), p.y(), reach);
+
+private:
+  const Scene& scene_;
+  double z_;
+  std::vector<Slice> slices_;
+};
+
+// Angles theta_n within `half` of `middle`.
+struct Arc {
+  double middle = 0;
+  double half = pi;
+};
+
+// What both have; where that is two pieces, the smaller of them whole. nullopt: nothing.
+std::optional<Arc> common(const Arc& one, const Arc& other) {
+  const double apart = std::remainder(other.middle - one.middle, 2 * pi);
+  const Arc& smaller = one.half < other.half ? one : other;
+  if (std::abs(apart) + one.half + other.half >= 2 * pi) return smaller;
+  const double from = std::max(-one.half, apart - other.half);
+  const double to = std::min(one.half, apart + other.half);
+  if (from > to) return {};
+  return Arc{one.middle + (from + to) / 2, (to - from) / 2};
+}
+
+// Where an element can meet a plane:
+// -sin q r (n_x cos - n_y sin)(theta_n) + U.n <= h - z n_z. nullopt: nowhere.
+std::optional<Arc> plane_arc(const Boundary& plane, const Extent& U, const Edge& edge) {
+  const double room = plane.h - U.least - edge.height * plane.a.z();
+  const double swing = edge.circle * std::hypot(plane.a.x(), plane.a.y());
+  if (room >= swing) return Arc{};  // inside all round
+  if (room < -swing) return {};
+  return Arc{std::atan2(-plane.a.y(), plane.a.x()), std::acos(-room / swing)};
+}
+
+// Where an element can be beside a groove whose axis has no X: within `half_width` of the axis it
+// is in the air, whatever its Y. Of the arcs on both sides those that `arc` has; both: `arc`.
+std::optional<Arc> groove_arc(const Boundary& groove, const Extent& Ux, const Extent& Uy,
+                              const Edge& edge, const Arc& arc) {
+  if (groove.a.x() != 0) return arc;
+  const double up = groove.a.y() * (edge.height - groove.c.z());
+  const double tilt = std::abs(groove.a.z());
+  const double far = std::abs(up) + tilt * (edge.circle + std::abs(groove.c.y()) +
+                                            std::max(std::abs(Uy.least), std::abs(Uy.greatest)));
+  if (!(far * far < groove.h)) return arc;
+  const double half_width = std::sqrt(groove.h - far * far);
+  const double low = (Ux.greatest - groove.c.x() - half_width) / edge.circle;  // cos theta_n: air
+  const double high = (Ux.least - groove.c.x() + half_width) / edge.circle;    // between these
+  if (!(low < high)) return arc;
+  std::optional<Arc> one, other;
+  if (high < 1) one = high > -1 ? common(arc, {0, std::acos(high)}) : arc;
+  if (low > -1) other = low < 1 ? common(arc, {pi, std::acos(-low)}) : arc;
+  if (one && other) return arc;
+  return one ? one : other;
+}
+
+// Where b = sin q cos phi sin theta_n + cos q sin phi is above the least.
+std::optional<Arc> feed_arc(const Scene& scene, const Edge& edge, double least) {
+  const double swing = edge.element->sin_q * scene.cos_phi;
+  const double room = least + edge.element->cos_q * scene.fd.z();
+  if (room >= swing) return {};
+  if (room <= -swing) return Arc{};
+  return Arc{pi / 2, std::acos(room / swing)};
+}
+
+// Where an element can be in the stock. nullopt: nowhere.
+std::optional<Arc> stock_arc(const Scene& scene, const Edge& edge) {
+  const std::size_t faces = scene.cut.stock.faces.size();
+  const bool any = scene.cut.stock.combine == Combine::Any && faces > 1;
+  std::optional<Arc> arc = Arc{};
+  for (std::size_t i = 0; i < scene.boundaries.size() && arc; ++i) {
+    const Boundary& boundary = scene.boundaries[i];
+    if (boundary.sign == 0 && !any) {
+      const std::optional<Arc> met = plane_arc(boundary, scene.along_normal[i], edge);
+      arc = met ? common(*arc, *met) : met;
+    } else if (boundary.sign < 0 && i >= faces) {
+      arc = groove_arc(boundary, scene.along_x, scene.along_y, edge, *arc);
+    }
+  }
+  return arc;
 }
 
 // Samples from first to last, not wrapped.
@@ -140,63 +231,69 @@ struct Window {
   int last = -1;
 };
 
-// Where an element can meet the narrowest plane:
-// -sin q r (n_x cos - n_y sin)(theta_n) <= h + reach |n_xy| - z n_z.
-Window window(const Scene& scene, const Edge& edge) {
+Window window(const Scene& scene, const Edge& edge, const Arc& arc) {
   const int N = scene.cut.samples;
-  const Stock& stock = scene.cut.stock;
-  if (stock.combine == Combine::Any && stock.faces.size() > 1) return {0, N - 1};
-  const double z = edge.base - edge.r * edge.element->cos_q;
-  double middle = 0;
-  double half = pi;
-  for (const Face& face : stock.faces) {
-    const auto* plane = std::get_if<HalfSpace>(&face);
-    if (plane == nullptr) continue;
-    const double level = std::hypot(plane->n.x(), plane->n.y());
-    const double room = plane->h + scene.largest * level - z * plane->n.z();
-    const double swing = edge.r * edge.element->sin_q * level;
-    if (room >= swing) continue;   // inside all round
-    if (room < -swing) return {};  // never inside
-    const double half_here = std::acos(-room / swing);
-    if (half_here >= half) continue;
-    half = half_here;
-    middle = std::atan2(-plane->n.y(), plane->n.x());
-  }
-  if (half >= pi) return {0, N - 1};
+  if (arc.half >= pi) return {0, N - 1};
   const double per_sample = 2 * pi / N;
-  const double centre = middle - edge.ahead + edge.element->psi;
-  const int first = static_cast<int>(std::floor((centre - half) / per_sample));
-  const int last = static_cast<int>(std::ceil((centre + half) / per_sample));
+  const double middle = arc.middle - edge.ahead + edge.element->psi;
+  const int first = static_cast<int>(std::floor((middle - arc.half) / per_sample));
+  const int last = static_cast<int>(std::ceil((middle + arc.half) / per_sample));
   return {first, std::min(last, first + N - 1)};
 }
 
 void search(const Scene& scene, const Edge& edge, const Before& before, std::int32_t element,
             std::vector<Found>& found) {
-  const auto [first, last] = window(scene, edge);
-  if (last < first) return;
-  const int N = scene.cut.samples;
-  const bool is_centred = !scene.centre.empty();
+  const std::optional<Arc> in_stock = stock_arc(scene, edge);
+  if (!in_stock) return;
   const Moved moved(scene, edge, before);
   const double spread = 2 * scene.around.reach * edge.element->sin_q;
   const double least = least_b(edge, before, spread + moved.greatest());
-  const double level = before.r * before.r - before.f * before.f;
+  const std::optional<Arc> fed = feed_arc(scene, edge, least);
+  const std::optional<Arc> both = fed ? common(*in_stock, *fed) : std::nullopt;
+  if (!both) return;
+
+  const Level level(scene, edge.height);
+  const int N = scene.cut.samples;
+  const bool is_centred = !scene.centre.empty();
+  const double by_s = edge.element->sin_q * scene.cos_phi;  // of b
+  const double always = -edge.element->cos_q * scene.fd.z();
+  const double past = before.r * before.r - before.f * before.f;
   const auto cuts_deeper = [&](double b, std::int32_t sample, const Aim& at) {  // as least_b()
     const double rim = edge.r + spread + moved.at(sample, at);
-    return rim * (2 * before.f * b + rim) > level;
+    return rim * (2 * before.f * b + rim) > past;
   };
+  const auto [first, last] = window(scene, edge, *both);
   std::int32_t sample = ((first % N) + N) % N;
   for (int i = first; i <= last; ++i) {
     const Aim at = aim(scene, edge, sample);
-    const double b = at.N.dot(scene.fd);
+    const double b = by_s * at.s + always;
     if (b > least) {  // may cut deeper than the tooth before
-      Eigen::Vector3d P = point(edge, at);
-      if (is_centred) P.head<2>() += scene.at(sample);
-      if (is_in_stock(scene, P) && (!is_centred || cuts_deeper(b, sample, at))) {
+      double x = -edge.circle * at.c;
+      double y = edge.circle * at.s;
+      if (is_centred) {
+        x += scene.at(sample).x();
+        y += scene.at(sample).y();
+      }
+      if (level.is_in_stock(x, y) && (!is_centred || cuts_deeper(b, sample, at))) {
         found.push_back({sample, element});
       }
     }
     sample = sample + 1 < N ? sample + 1 : 0;
   }
+}
+
+// How far the deflections of a table may go along a direction.
+Extent extent(const Scene& scene, const Eigen::Vector2d& along) {
+  Extent out;
+  const Deflections& centre = scene.around.centre;
+  if (!centre.empty()) out.least = out.greatest = centre.front().dot(along);
+  for (const Eigen::Vector2d& U : centre) {
+    const double u = U.dot(along);
+    out.least = std::min(out.least, u);
+    out.greatest = std::max(out.greatest, u);
+  }
+  const double reach = scene.around.reach * along.norm();
+  return {out.least - reach, out.greatest + reach};
 }
 
 // By sample, elements upwards within one.
@@ -227,10 +324,18 @@ Scene scene(const Cut& cut, const Around& around) {
               .elements = elements(cut.cutter),
               .sin_theta = {},
               .cos_theta = {},
-              .boundaries = boundaries(cut.stock)};
+              .boundaries = boundaries(cut.stock),
+              .along_normal = {},
+              .along_x = {},
+              .along_y = {}};
   double furthest = 0;
   for (const Eigen::Vector2d& U : around.centre) furthest = std::max(furthest, U.squaredNorm());
   scene.largest += std::sqrt(furthest);
+  scene.along_x = extent(scene, Eigen::Vector2d::UnitX());
+  scene.along_y = extent(scene, Eigen::Vector2d::UnitY());
+  for (const Boundary& boundary : scene.boundaries) {
+    scene.along_normal.push_back(extent(scene, boundary.a.head<2>()));
+  }
   for (int i = 0; i < cut.samples; ++i) {
     const double theta = 2 * pi * i / cut.samples;
     scene.sin_theta.push_back(std::sin(theta));
@@ -241,12 +346,16 @@ Scene scene(const Cut& cut, const Around& around) {
 
 Edge edge_of(const Cut& cut, const Element& element, int tooth) {
   const double ahead = tooth_angle(cut.cutter, tooth);
+  const double r = tooth_radius(cut.cutter, tooth);
+  const double base = cut.cutter.kind == CutterKind::Square ? element.z : 0;
   return {.element = &element,
-          .r = tooth_radius(cut.cutter, tooth),
+          .r = r,
           .ahead = ahead,
           .sin_k = std::sin(ahead - element.psi),
           .cos_k = std::cos(ahead - element.psi),
-          .base = cut.cutter.kind == CutterKind::Square ? element.z : 0};
+          .base = base,
+          .circle = r * element.sin_q,
+          .height = base - r * element.cos_q};
 }
 
 Before before(const Cut& cut, int tooth, int m) {

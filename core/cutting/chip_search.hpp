@@ -9,6 +9,11 @@
 /// Search of a chip table: which elements at which samples may cut.
 namespace ridgeline::cutting {
 
+/// How far the deflections may go along a direction [mm].
+struct Extent {
+  double least = 0, greatest = 0;
+};
+
 /// What the whole table shares.
 struct Scene {
   const Cut& cut;
@@ -23,6 +28,8 @@ struct Scene {
   std::vector<Element> elements;
   std::vector<double> sin_theta, cos_theta;  ///< of each sample
   std::vector<Boundary> boundaries;
+  std::vector<Extent> along_normal;  ///< of a plane among the boundaries
+  Extent along_x, along_y;
 
   /// The centre at a sample of the revolution; only if there is one.
   const Eigen::Vector2d& at(std::int32_t sample) const {
@@ -37,6 +44,8 @@ struct Edge {
   double ahead = 0;             ///< angle of the tooth
   double sin_k = 0, cos_k = 0;  ///< of theta_n - theta
   double base = 0;
+  double circle = 0;  ///< r sin q [mm]
+  double height = 0;  ///< of the element from O' [mm]
 };
 
 /// An element at a sample that may cut.
@@ -49,7 +58,6 @@ struct Found {
 struct Aim {
   double s = 0;  ///< sin theta_n
   double c = 0;  ///< cos theta_n
-  Eigen::Vector3d N;
 };
 
 /// The tooth m before this one: how far ahead it is, what it left behind.
@@ -66,16 +74,17 @@ Before before(const Cut& cut, int tooth, int m);
 inline Aim aim(const Scene& scene, const Edge& edge, std::int32_t sample) {
   const double s = scene.sin_theta[static_cast<std::size_t>(sample)];
   const double c = scene.cos_theta[static_cast<std::size_t>(sample)];
-  Aim aim;
-  aim.s = s * edge.cos_k + c * edge.sin_k;
-  aim.c = c * edge.cos_k - s * edge.sin_k;
+  return {.s = s * edge.cos_k + c * edge.sin_k, .c = c * edge.cos_k - s * edge.sin_k};
+}
+
+/// Unit, O' -> edge.
+inline Eigen::Vector3d outward(const Edge& edge, const Aim& aim) {
   const double sin_q = edge.element->sin_q;
-  aim.N = {-sin_q * aim.c, sin_q * aim.s, -edge.element->cos_q};
-  return aim;
+  return {-sin_q * aim.c, sin_q * aim.s, -edge.element->cos_q};
 }
 
 inline Eigen::Vector3d point(const Edge& edge, const Aim& aim) {
-  return edge.r * aim.N + Eigen::Vector3d(0, 0, edge.base);
+  return {-edge.circle * aim.c, edge.circle * aim.s, edge.height};
 }
 
 /// What may cut of the edges of one tooth, by sample, elements upwards within

@@ -11,7 +11,20 @@ namespace {
 
 using std::numbers::pi;
 
+// atan2(y, x), which for the small angles that nearly all are is a series: the terms left out are
+// below the rounding.
+double small_atan2(double y, double x) {
+  if (!(x > 0 && std::abs(y) < 0.125 * x)) return std::atan2(y, x);
+  const double u = y / x;
+  const double w = u * u;
+  const double w2 = w * w;
+  const double low = (1 - w / 3) + w2 * (1.0 / 5 - w / 7);
+  const double high = (1.0 / 9 - w / 11) + w2 * (1.0 / 13 - w / 15);
+  return u * (low + w2 * w2 * high);
+}
+
 double wrapped(double sample, int N) {
+  if (sample >= 0 && sample < N) return sample;
   const double w = sample - N * std::floor(sample / N);
   return w < N ? w : 0;
 }
@@ -26,47 +39,69 @@ double wrapped(double sample, int N) {
 Earlier earlier_at(const Scene& scene, const Edge& edge, const Aim& aim, std::int32_t sample,
                    const Before& before) {
   const int samples = scene.cut.samples;
+  const double sin_q = edge.element->sin_q;
+  const double cos_q = edge.element->cos_q;
   const double f = before.f;
-  const double b = aim.N.dot(scene.fd);  // (7)
+  const double across = f * scene.cos_phi;
+  const double b = sin_q * scene.cos_phi * aim.s - cos_q * scene.fd.z();  // (7)
   const double root = f * f * (b * b - 1) + before.r * before.r;
 
   Earlier earlier;
   earlier.ts = edge.r + f * b - std::sqrt(std::max(root, 0.0));
   if (scene.around.is_still) return earlier;
   const double along = edge.r - earlier.ts;
-  const double across = f * scene.cos_phi;
-  const double turn = std::atan2(across * aim.c, along * edge.element->sin_q + across * aim.s);
-  const Eigen::Vector3d from_earlier = (along * aim.N + f * scene.fd) / before.r;
-  const double sin_q_o = std::sqrt(from_earlier.head<2>().squaredNorm());
-  const double psi_o =
-      lag(scene.cut.cutter, scene.tan_helix, sin_q_o, -from_earlier.z(), edge.element->z);
-  earlier.delay = (before.ahead + edge.element->psi - psi_o - turn) * samples / (2 * pi);
+  const double x = along * sin_q + across * aim.s;
+  const double y = across * aim.c;
+  const double sin_q_o = std::sqrt(x * x + y * y) / before.r;
+  const double cos_q_o = (along * cos_q - f * scene.fd.z()) / before.r;
+  const double psi_o = lag(scene.cut.cutter, scene.tan_helix, sin_q_o, cos_q_o, edge.element->z);
+  earlier.delay =
+      (before.ahead + edge.element->psi - psi_o - small_atan2(y, x)) * samples / (2 * pi);
 
   const double place = wrapped(sample - earlier.delay, samples);
-  const double below = std::floor(place);
-  earlier.before = static_cast<std::int32_t>(below);
-  earlier.frac = place - below;
+  earlier.before = static_cast<std::int32_t>(place);
+  earlier.frac = place - earlier.before;
   if (scene.cut.lookup == Lookup::Nearest) earlier.frac = earlier.frac < 0.5 ? 0 : 1;
   return earlier;
 }
 
-Chip chip_at(const Scene& scene, const Edge& edge, const Aim& at) {
-  const tool::Coefficients& k = scene.cut.coefficients;
-  const double sin_q = edge.element->sin_q;
-  const double cos_q = edge.element->cos_q;
-  const double t_w = edge.element->width;
-  const Eigen::Vector3d e_t(-at.s, -at.c, 0);  // against the cutting velocity
-  const Eigen::Vector3d e_r = -at.N;           // towards O'
-  const Eigen::Vector3d e_a(cos_q * at.c, -cos_q * at.s,
-                            -sin_q);  // towards the tip
-  Chip chip;
-  chip.N = at.N;
-  chip.Fe = t_w * (k.Kte * e_t + k.Kre * e_r + k.Kae * e_a);  // (14)..(16) at t = 0
-  chip.Fc = t_w * (k.Ktc * e_t + k.Krc * e_r + k.Kac * e_a);  // per t
+// A force on an element, turned to where it stands: along -e_t, across it in the plane, along Z.
+struct Turning {
+  double by_t = 0, by_n = 0, by_z = 0;
+
+  // (14)..(16): e_t = (-s, -c, 0) against the cutting velocity; e_r = (sin q c, -sin q s, cos q)
+  // towards O'; e_a = (cos q c, -cos q s, -sin q) towards the tip.
+  Turning(const Element& element, double Kt, double Kr, double Ka)
+      : by_t(element.width * Kt),
+        by_n(element.width * (Kr * element.sin_q + Ka * element.cos_q)),
+        by_z(element.width * (Kr * element.cos_q - Ka * element.sin_q)) {}
+
+  Eigen::Vector3d at(const Aim& aim) const {
+    return {by_n * aim.c - by_t * aim.s, -by_t * aim.c - by_n * aim.s, by_z};
+  }
+};
+
+// What all chips of an element share.
+struct Blade {
+  Edge edge;
+  Turning Fe;  // at t = 0
+  Turning Fc;  // per t
+};
+
+Blade blade(const Cut& cut, const Element& element, int tooth) {
+  const tool::Coefficients& k = cut.coefficients;
+  return {
+      edge_of(cut, element, tooth), {element, k.Kte, k.Kre, k.Kae}, {element, k.Ktc, k.Krc, k.Kac}};
+}
+
+void put_chip(const Scene& scene, const Blade& blade, const Aim& at, Chip& chip) {
+  const Edge& edge = blade.edge;
+  chip.N = outward(edge, at);
+  chip.Fe = blade.Fe.at(at);
+  chip.Fc = blade.Fc.at(at);
   chip.r = edge.r;
   chip.base = edge.base;
-  chip.depth = scene.cut.cutter.r + edge.r * at.N.dot(scene.cut.n);  // (25)..(27) without U
-  return chip;
+  chip.depth = scene.cut.cutter.r + edge.r * chip.N.dot(scene.cut.n);  // (25)..(27) without U
 }
 
 // Is an element of these terms in the stock wherever the deflection may be?
@@ -85,34 +120,51 @@ bool is_far_inside(const Scene& scene, const Term* terms, std::int32_t sample) {
   return faces == 0 || (stock.combine == Combine::All ? inside == faces : inside > 0);
 }
 
+// With no reach at all whatever the search found is engaged; a map it looks at less closely.
+bool is_exact(const Scene& scene) {
+  return scene.around.reach == 0 && !scene.cut.stock.map;
+}
+
+// The faces and grooves as a chip meets them; true: whatever the deflection.
+bool put_terms(const Scene& scene, const Eigen::Vector3d& P, std::int32_t sample,
+               std::vector<Term>& terms) {
+  for (const Boundary& boundary : scene.boundaries) terms.push_back(term_at(boundary, P));
+  return is_far_inside(scene, terms.data() + (terms.size() - scene.boundaries.size()), sample);
+}
+
 ToothChips tooth_chips(const Scene& scene, int tooth, ToothChips out) {
   const Cut& cut = scene.cut;
+  std::vector<Blade> blades;
+  blades.reserve(scene.elements.size());
+  for (const Element& element : scene.elements) blades.push_back(blade(cut, element, tooth));
   std::vector<Edge> edges;
-  for (const Element& element : scene.elements) edges.push_back(edge_of(cut, element, tooth));
+  edges.reserve(blades.size());
+  for (const Blade& one : blades) edges.push_back(one.edge);
   std::vector<Before> befores;
   for (int m = 1; m <= cut.earlier_teeth; ++m) befores.push_back(before(cut, tooth, m));
 
   auto [first, found] = candidates(scene, edges, befores.front());
   out.first = std::move(first);
-  out.chips.clear();
   out.terms.clear();
   out.earlier.clear();
-  out.chips.reserve(found.size());
-  out.terms.reserve(found.size() * scene.boundaries.size());
-  for (const auto& [sample, element] : found) {
-    const Edge& edge = edges[static_cast<std::size_t>(element)];
-    const Aim at = aim(scene, edge, sample);
-    out.chips.push_back(chip_at(scene, edge, at));
-    out.chips.back().element = element;
-    out.chips.back().earlier = earlier_at(scene, edge, at, sample, befores.front());
+  out.chips.resize(found.size());
+  const bool has_terms = !is_exact(scene) || cut.chip_end == ChipEnd::StockLimited;
+  if (has_terms) out.terms.reserve(found.size() * scene.boundaries.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto& [sample, element] = found[i];
+    const Blade& own = blades[static_cast<std::size_t>(element)];
+    const Aim at = aim(scene, own.edge, sample);
+    Chip& chip = out.chips[i];
+    put_chip(scene, own, at, chip);
+    chip.element = element;
+    chip.earlier = earlier_at(scene, own.edge, at, sample, befores.front());
     for (std::size_t m = 1; m < befores.size(); ++m) {
-      out.earlier.push_back(earlier_at(scene, edge, at, sample, befores[m]));
+      out.earlier.push_back(earlier_at(scene, own.edge, at, sample, befores[m]));
     }
-    for (const Boundary& boundary : scene.boundaries) {
-      out.terms.push_back(term_at(boundary, point(edge, at)));
+    chip.is_inside = is_exact(scene);
+    if (has_terms && put_terms(scene, point(own.edge, at), sample, out.terms)) {
+      chip.is_inside = true;
     }
-    out.chips.back().is_inside =
-        is_far_inside(scene, out.terms.data() + out.terms.size() - scene.boundaries.size(), sample);
   }
   return out;
 }

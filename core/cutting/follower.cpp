@@ -130,6 +130,7 @@ void Follower::by_time(const Cut& cut, Prediction& prediction, StationError& out
 }
 
 StationError Follower::at(const Station& station) {
+  ahead_ = iteration_.next_start(ahead_);
   StationError out = shifted(station, 0);
   if (options_.uncertainty && out.e) out.spread = spread(station, 0, *out.e);
   return out;
@@ -161,6 +162,7 @@ double Follower::spread(const Station& nominal, double shift, double e) {
 // Fixed point s = e(s): the first shift is e(0), the next ones by the secant of e(s) - s, which
 // also serves where e(s) grows nearly as fast as s.
 StationError Follower::corrected_at(const Station& station, const CorrectOptions& limits) {
+  ahead_ = iteration_.next_start(ahead_);
   StationError now = shifted(station, 0);
   if (!now.e) return now;
   const double radius = course_.cutter.r;

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
+#include <numbers>
 #include <string>
+#include <utility>
 
 #include "core/cutting/require.hpp"
 
@@ -29,6 +32,22 @@ double squared_sum(const Deflections& D) {
   double sum = 0;
   for (const Eigen::Vector2d& d : D) sum += d.squaredNorm();
   return sum;
+}
+
+// Where in its period a force is: the angle of its first harmonic. nullopt: all round, or none.
+std::optional<double> middle(const Forces& F) {
+  std::complex<double> sum = 0;
+  double total = 0;
+  const double turn = 2 * std::numbers::pi / static_cast<double>(F.size());
+  for (std::size_t i = 0; i < F.size(); ++i) {
+    if (F[i].isZero(0)) continue;
+    const double size = F[i].norm();
+    sum += std::polar(size, turn * static_cast<double>(i));
+    total += size;
+  }
+  constexpr double clear = 0.1;
+  if (!(std::abs(sum) > clear * total)) return {};
+  return std::arg(sum) / turn;
 }
 
 // (1)
@@ -70,15 +89,9 @@ private:
   int since_least_ = 0;
 };
 
-// How far the deflection may go from where a segment begins, and from where it has come to when
-// that was too little; of its greatest.
-constexpr double first_margin = 0.35;
-constexpr double next_margin = 0.6;
-
-// Along a path it changes by about as much as at the stations before: this many times the greatest
-// lately, which is forgotten by so much a station.
-constexpr double usual_changes = 2.5;
-constexpr double fading = 0.8;
+// How far the deflection may still go from where it has come to: as far as it has come from where
+// the chips before were searched, at most this much of its greatest.
+constexpr double margin = 0.6;
 
 // kappa / tc, which must leave the tool its resonances: at 1.4 fn the error moves by 0.8 um, at 2
 // fn by 0.1 um (design: section 5). nullopt: it does not, and the cut goes without.
@@ -103,11 +116,10 @@ Iteration::Iteration(const Compliance& compliance, double S, IterateOptions opti
 
 // Searches the chips for the deflection in use; the memory of the table before serves again. Of
 // equal teeth that begin from a deflection, only the chips round that, which may still change by
-// `change`, or by `margin` of itself where that is less. The rigid method needs those that a tool
-// cuts which does not give way, and no others.
-void Iteration::make_room(const Cut& cut, const Deflections& D, double change, double margin) {
+// `change`: by nothing in the first loop, which along a path is often the only one. The rigid
+// method needs those that a tool cuts which does not give way, and no others.
+void Iteration::make_room(const Cut& cut, const Deflections& D, double change) {
   constexpr double least_reach = 0.02;
-  constexpr double least_change = 0.001;
   constexpr double further = 1.5;
   const double used = greatest_deflection(cut, D);
   Around around;
@@ -115,7 +127,7 @@ void Iteration::make_room(const Cut& cut, const Deflections& D, double change, d
     around.reach = cut.cutter.offset;
     around.is_still = around.reach == 0;
   } else if (is_centred_) {
-    around = {std::max(least_change, std::min(change, margin * used)), D};
+    around = {std::min(change, margin * used), D};
   } else {
     around.reach = std::max(least_reach, further * used);
   }
@@ -132,24 +144,38 @@ Prediction Iteration::solve(const Cut& cut, const Eigen::Matrix2d& axes, const D
   }
   response_->turn(axes);
   constexpr double turned = 0.5;  // 20 degrees: the differences are of another cut
-  if ((axes - axes_).norm() > turned) secants_.clear();
+  if ((axes - axes_).norm() > turned) {
+    secants_.clear();
+    last_place_.reset();
+  }
   axes_ = axes;
   cut_scale_ = edge_scale_ = 1;
   Deflections D1 = resampled(start, samples_);
   is_rigid_ = start.empty() && options_.max_loops == 1;
   is_centred_ = !start.empty() && options_.span == Span::Pitch && is_periodic(cut.cutter) &&
                 cut.samples % teeth(cut.cutter) == 0;
-  make_room(cut, D1, usual_changes * change_, first_margin);
-  away_ = 0;
+  make_room(cut, D1, 0);
   Prediction out = loops(std::move(D1), progress);
-  if (is_centred_) change_ = std::isinf(change_) ? away_ : std::max(away_, fading * change_);
+  place_.reset();
+  if (options_.span == Span::Pitch) place_ = middle(out.F);
   return out;
+}
+
+Deflections Iteration::next_start(const Deflections& start) {
+  constexpr double furthest = 0.05;  // of a tooth period: beyond it the cut is another one
+  const std::optional<double> before = std::exchange(last_place_, place_);
+  if (!before || !place_ || start.empty()) return start;
+  const double later = std::remainder(*place_ - *before, samples_);
+  if (std::abs(later) > furthest * samples_) return start;
+  secants_.move_on(later);
+  return moved_on(start, later);
 }
 
 void Iteration::adopt(const Cut& cut, Deflections D) {
   cut_scale_ = edge_scale_ = 1;
   is_centred_ = is_rigid_ = false;
-  make_room(cut, D, 0, first_margin);
+  place_.reset();
+  make_room(cut, D, 0);
   span_ = Span::Revolution;
   revolution_ = revolution_force(table_, D, span_);
   D_ = std::move(D);
@@ -166,7 +192,7 @@ Prediction Iteration::scaled(double cut_scale, double edge_scale) {
   const bool has_room =
       is_rigid_ || greatest_deflection(table_.cut, D, table_.around.centre) <= table_.around.reach;
   if (!has_room) {
-    make_room(Cut(table_.cut), D, std::numeric_limits<double>::infinity(), next_margin);
+    make_room(Cut(table_.cut), D, std::numeric_limits<double>::infinity());
   } else {
     scale_forces(table_, cut_change, edge_change);
   }
@@ -212,10 +238,9 @@ Prediction Iteration::loops(Deflections D1, const Progress& progress) {
     }
     const Around& around = table_.around;
     const double away = greatest_deflection(table_.cut, D1, around.centre);
-    if (is_centred_) away_ = std::max(away_, away);
     if (away > around.reach) {
       if (greatest_deflection(table_.cut, D1) > options_.largest) break;
-      make_room(Cut(table_.cut), D1, away, next_margin);
+      make_room(Cut(table_.cut), D1, away);
     }
   }
   out.e = machining_error(table_, revolution_, D_, options_.span, table_.cut.n);

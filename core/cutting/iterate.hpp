@@ -78,6 +78,11 @@ public:
   Prediction solve(const Cut& cut, const Eigen::Matrix2d& axes, const Deflections& start,
                    const Progress& progress = {});
 
+  /// Where a cut one station further along a path begins: `start`, moved on by as much as the force
+  /// came later in the last cut than in the one before. With the engagement the vibration moves
+  /// round the tool; at low speed, with many waves in a revolution, that is most of its change.
+  Deflections next_start(const Deflections& start);
+
   /// Error of the last cut solved against another surface: n points from its contact to O'.
   std::optional<double> error_towards(const Eigen::Vector3d& n) const;
 
@@ -91,7 +96,7 @@ public:
 
 private:
   Prediction loops(Deflections D1, const Progress& progress);
-  void make_room(const Cut& cut, const Deflections& D, double change, double margin);
+  void make_room(const Cut& cut, const Deflections& D, double change);
 
   Compliance compliance_;
   double S_;
@@ -103,10 +108,9 @@ private:
   Deflections D_;
   Span span_ = Span::Revolution;  // of D_
   Secants secants_;
+  std::optional<double> place_, last_place_;  // of the force in the tooth period [samples]
   Eigen::Matrix2d axes_ = Eigen::Matrix2d::Identity();
   double cut_scale_ = 1, edge_scale_ = 1;
-  double away_ = 0;  // how far the loops of this cut went from where they began [mm]
-  double change_ = std::numeric_limits<double>::infinity();  // the same, of the cuts lately
   bool is_centred_ = false;  // the chips are those round a deflection
   bool is_rigid_ = false;    // one loop from no deflection
 };

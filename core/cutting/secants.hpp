@@ -22,6 +22,9 @@ public:
   /// The next loop is of another cut: no difference between it and the last one.
   void begin_cut() { has_last_ = false; }
 
+  /// The next cut does the same so many samples later; all that was learnt moves with it.
+  void move_on(double samples) { later_ += samples; }
+
   /// What was learnt holds no longer: the tool stands another way to the work.
   void clear();
 
@@ -35,11 +38,16 @@ private:
   };
   void learn(const Eigen::VectorXd& D, const Eigen::VectorXd& R);
   Eigen::VectorXd shares(const Eigen::VectorXd& R) const;
+  Eigen::VectorXd explained(const Eigen::VectorXd& R) const;
 
   std::deque<Difference> differences_;
   Eigen::MatrixXd products_;  ///< of the R of the differences, the lower half
   Loop last_;
   bool has_last_ = false;
+  double later_ = 0;  // than where the differences were learnt [samples]
 };
+
+/// The deflection of one period, so many samples later; between samples on the line.
+Deflections moved_on(const Deflections& D, double samples);
 
 }  // namespace ridgeline::cutting

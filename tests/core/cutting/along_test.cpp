@@ -103,10 +103,10 @@ TEST(Along, TurnsAndMovesWithTheWork) {
 }
 
 // Stations of a slope whose tilt changes slowly, in up-milling, which converges slowly.
-std::vector<Station> slope(const Example& example, int count) {
+std::vector<Station> slope(const Example& example, int count, double step = 0.25) {
   std::vector<Station> out;
   for (int i = 0; i < count; ++i) {
-    const double tilt = (14 + 0.25 * i) * std::numbers::pi / 180;
+    const double tilt = (14 + step * i) * std::numbers::pi / 180;
     Station station = example.station;
     station.feed = 0.2;
     station.direction = {0, -1, 0};
@@ -146,6 +146,41 @@ TEST(Along, SecantsEndWhereAveragesDoInAThirdOfTheLoops) {
   EXPECT_LT(3 * fast_loops, slow_loops);
 }
 
+// A wave of 8 in a period, so many samples later: on the line between samples, within (8 step)^2
+// / 8.
+TEST(Along, ADeflectionMovesOnByPartsOfASample) {
+  const double step = 2 * std::numbers::pi / 512;
+  Deflections wave;
+  for (int i = 0; i < 512; ++i) wave.emplace_back(std::cos(8 * step * i), std::sin(8 * step * i));
+  for (const double later : {0.0, 3.0, 3.25, -2.5, 511.75, -1030.5}) {
+    const Deflections moved = moved_on(wave, later);
+    for (int i = 0; i < 512; ++i) {
+      const double at = 8 * step * (i - later);
+      const Eigen::Vector2d expected(std::cos(at), std::sin(at));
+      EXPECT_LT((moved[static_cast<std::size_t>(i)] - expected).norm(), 0.00121) << later;
+    }
+  }
+}
+
+// At 1500 rev/min, 22 waves in a tooth period, the engagement that turns with the slope takes the
+// vibration with it: 218 loops, and 330 from where the vibration was.
+TEST(Along, TheStartMovesOnWithTheEngagement) {
+  Example example;
+  example.course.samples = 1024;
+  example.course.cutter.elements = 64;
+  const Modes mode{{1100, 0.03, 2000}};
+  example.compliance = {mode, mode, Eigen::Matrix2d::Identity()};
+  AlongOptions options;
+  options.iterate.mixing = Mixing::Secants;
+  int loops = 0;
+  for (const StationError& station :
+       along(example.course, slope(example, 40, 1.2), example.compliance, 1500 / 60.0, options)) {
+    EXPECT_TRUE(station.converged);
+    loops += station.loops;
+  }
+  EXPECT_LT(loops, 270);
+}
+
 TEST(Along, TheRigidMethodHasNoMemory) {
   const Example example;
   AlongOptions options;
@@ -156,7 +191,8 @@ TEST(Along, TheRigidMethodHasNoMemory) {
   for (const StationError& station : path) EXPECT_NEAR(*station.e, *alone.e, 1e-12);
 }
 
-// The spread by its definition: the rigid method again with other coefficients, a tenth up and down.
+// The spread by its definition: the rigid method again with other coefficients, a tenth up and
+// down.
 TEST(Along, TheSpreadOfTheRigidMethodIsThatOfOtherCoefficients) {
   const Example example;
   AlongOptions options;
@@ -173,8 +209,7 @@ TEST(Along, TheSpreadOfTheRigidMethodIsThatOfOtherCoefficients) {
   };
   const double by_cutting = (error(1.1, 1) - error(0.9, 1)) / 0.2;
   const double by_edge = (error(1, 1.1) - error(1, 0.9)) / 0.2;
-  const double expected =
-      std::hypot(0.1 * by_cutting, 0.2 * by_edge, 0.1 * (by_cutting + by_edge));
+  const double expected = std::hypot(0.1 * by_cutting, 0.2 * by_edge, 0.1 * (by_cutting + by_edge));
   EXPECT_GT(expected, 1e-4);
   EXPECT_NEAR(path[0].spread, expected, 1e-9);
 }

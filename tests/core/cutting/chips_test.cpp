@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <numbers>
 #include <random>
 
@@ -146,22 +147,45 @@ TEST(Chips, RoundADeflectionNoneThatCutsIsLost) {
     wedge.stock.faces.emplace_back(HalfSpace{{0.6, 0, 0.8}, -0.8});
     cuts.push_back(wedge);
   }
+  for (const double side : {-1, 1}) {  // a groove on either hand, level and climbing
+    Cut beside = cuts.front();
+    beside.phi = side > 0 ? 0 : 0.2;
+    const Eigen::Vector3d across = feed_direction(beside).cross(beside.n);
+    beside.stock.grooves = {{0.3 * side * across, feed_direction(beside), beside.cutter.r}};
+    cuts.push_back(beside);
+  }
   int cutting = 0;
   for (const Cut& cut : cuts) {
-    SCOPED_TRACE(cutting);
-    const double reach = 0.005;
-    const int samples = cut.samples / teeth(cut.cutter);
-    const auto [centre, near] = vibration(samples, reach, random);
-    const ChipTable wide = chip_table(cut, {1});
-    const ChipTable narrow = chip_table(cut, {reach, centre});
-    EXPECT_LT(narrow.teeth[0].chips.size(), wide.teeth[0].chips.size());
-    const Revolution expected = revolution_force(wide, near, Span::Pitch);
-    const Revolution found = revolution_force(narrow, near, Span::Pitch);
-    EXPECT_EQ(found.cut_points, expected.cut_points);
-    EXPECT_EQ(found.F, expected.F);
-    EXPECT_GT(expected.cut_points, 100);
-    ++cutting;
+    const ChipTable wide = chip_table(cut, {0.4});
+    for (const double reach : {0.005, 0.0}) {
+      SCOPED_TRACE(cutting);
+      const auto [centre, near] = vibration(cut.samples / teeth(cut.cutter), reach, random);
+      const ChipTable narrow = chip_table(cut, {reach, centre});
+      EXPECT_LT(narrow.teeth[0].chips.size(), wide.teeth[0].chips.size());
+      const Revolution expected = revolution_force(wide, near, Span::Pitch);
+      const Revolution found = revolution_force(narrow, near, Span::Pitch);
+      EXPECT_LT(greatest_deflection(cut, near), wide.around.reach);
+      EXPECT_EQ(found.cut_points, expected.cut_points);
+      EXPECT_EQ(found.F, expected.F);
+      EXPECT_GT(expected.cut_points, 100);
+      ++cutting;
+    }
   }
+  EXPECT_EQ(cutting, 22);
+}
+
+// What a rigid tool cuts, with nothing round it and no angle of the tooth before.
+TEST(Chips, TheTableOfAStillToolIsWhatItCuts) {
+  const Cut cut = oracle::cut(oracle::file("03-ball-third-pass-low-pass-kappa-2.json")["case"]);
+  const ChipTable wide = chip_table(cut, {0.02});
+  const ChipTable least = chip_table(cut, {.reach = 0, .is_still = true});
+  const Deflections none(static_cast<std::size_t>(cut.samples), Eigen::Vector2d::Zero());
+  const Revolution expected = revolution_force(wide, none, Span::Revolution);
+  const Revolution found = revolution_force(least, none, Span::Revolution);
+  EXPECT_EQ(found.F, expected.F);
+  EXPECT_EQ(found.cut_points, expected.cut_points);
+  EXPECT_EQ(found.cut.size(), static_cast<std::size_t>(found.cut_points));
+  EXPECT_LT(found.cut.size(), expected.cut.size());
 }
 
 // Unequal pitch: each tooth's chip is proportional to the angle to the tooth before it, and the
