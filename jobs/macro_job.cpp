@@ -74,6 +74,10 @@ void read_parameters(const Value& value, macro::Profile& profile) {
     if (hash != std::string::npos) {
       const int bit = number_in(key.substr(hash + 1), value, 7);
       if (values.empty()) values = {0};
+      constexpr int all_bits = 255;
+      if (!(values.front() >= 0 && values.front() <= all_bits)) {
+        each.refuse("a bit of a parameter from 0 to 255");
+      }
       const int others = static_cast<int>(values.front()) & ~(1 << bit);
       values.front() = others | (read_switch(each) ? 1 << bit : 0);
     } else if (json.is_array()) {

@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 
 constexpr double arc_tolerance = 0.002;  // chords of an arc [mm]
 constexpr double most_nodes = 16e6;      // of a stock's height map
-constexpr std::size_t most_stations = 1'000'000;
+constexpr int most_stations = 1'000'000;
 constexpr double steepest = 0.99;  // sine: a plunge has no side that could be left or cut
 
 // The stock before the path: a block with a flat top, or a height map, Z up.
@@ -79,12 +79,13 @@ std::vector<Place> places_of(const WorkPath& work, const Vector3d& to_centre, do
     const double length = chord.norm();
     if (length < 1e-9) continue;
     const bool rapid = move.kind == path::MoveKind::Rapid;
-    const int parts = rapid ? 1 : static_cast<int>(std::ceil(length / step - 1e-9));
-    if (out.size() + static_cast<std::size_t>(parts) > most_stations) {
+    const double wanted = rapid ? 1 : std::ceil(length / step - 1e-9);
+    if (!(static_cast<double>(out.size()) + wanted <= most_stations)) {
       refuse({.field = "/along/step",
               .value = text(step) + " mm",
               .limit = "so large that the path has at most 1000000 stations"});
     }
+    const int parts = static_cast<int>(wanted);
     for (int i = 1; i <= parts; ++i) {
       Place place;
       place.from = at + chord * (static_cast<double>(i - 1) / parts) + to_centre;

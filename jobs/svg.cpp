@@ -106,13 +106,12 @@ Vector2d on_sheet(const View& view, const Vector2d& model) {
   return {middle.x() + offset.x(), middle.y() - offset.y()};
 }
 
-Svg::Svg(double width, double height, std::string_view title) {
-  out_ = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" "
-      "height=\"{1:g}\" role=\"img\">\n<title>{2}</title>\n<style>{3}</style>\n"
-      "<rect class=\"sheet\" width=\"{0:g}\" height=\"{1:g}\"/>\n",
-      width, height, escaped(title), style_sheet);
-}
+Svg::Svg(double width, double height, std::string_view title)
+    : out_(fmt::format(
+          "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" "
+          "height=\"{1:g}\" role=\"img\">\n<title>{2}</title>\n<style>{3}</style>\n"
+          "<rect class=\"sheet\" width=\"{0:g}\" height=\"{1:g}\"/>\n",
+          width, height, escaped(title), style_sheet)) {}
 
 void Svg::points(const View& view, const std::vector<Vector2d>& points) {
   for (const Vector2d& p : points) {

@@ -26,9 +26,9 @@ bool is_periodic(const Cutter& cutter) {
 }
 
 double tooth_angle(const Cutter& cutter, int k) {
-  const int z = teeth(cutter);
+  const int z = teeth(cutter), turns = k / z;
   const auto first = cutter.pitch.begin();
-  return 2 * pi * (k / z) + std::accumulate(first, first + k % z, 0.0);
+  return 2 * pi * turns + std::accumulate(first, first + k % z, 0.0);
 }
 
 double tooth_radius(const Cutter& cutter, int k) {

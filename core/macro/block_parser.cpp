@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::int32_t last_sequence_number = 99999999;
 constexpr std::int32_t last_goto_number = 99999;
+constexpr std::int32_t last_variable = 999999999;
 constexpr int most_conditions = 10;  // IF..THEN IF..THEN; no control documents more than one
 
 std::string address_name(char letter) {
@@ -245,7 +246,11 @@ void BlockParser::names(Block& block) {
   line_.skip(5);
   line_.take_if('#');
   const std::uint16_t column = line_.column();
-  block.variable = static_cast<std::int32_t>(line_.take_number(profile_.literal_digits).value);
+  const double number = line_.take_number(profile_.literal_digits).value;
+  if (number > last_variable) {
+    raise(AlarmNumber::VariableNumber, numbered("#", static_cast<std::int64_t>(number)), column);
+  }
+  block.variable = static_cast<std::int32_t>(number);
   if (!line_.take_if('[')) raise(AlarmNumber::MacroFormat, "SETVN n[NAME, ..]", column);
   block.first_word = static_cast<std::uint32_t>(program_.words.size());
   do {
@@ -299,7 +304,8 @@ void BlockParser::classify(Block& block, const Word& word) const {
   if (word.letter != 'G' || (word.flags & Word::is_literal) == 0) return;
   const bool is_call = block.kind == BlockKind::Call || block.kind == BlockKind::ModalCall;
   if (is_call) {
-    raise(AlarmNumber::GAsArgument, numbered("G", static_cast<int>(word.number)), word.column);
+    const auto number = static_cast<std::int64_t>(word.number);
+    raise(AlarmNumber::GAsArgument, numbered("G", number), word.column);
   }
   if (word.number == 65) block.kind = BlockKind::Call;
   if (word.number == 66 || word.number == 66.1) block.kind = BlockKind::ModalCall;

@@ -13,6 +13,8 @@ namespace ridgeline::macro {
 
 namespace {
 
+constexpr std::int64_t last_program_number = 999999999;
+
 bool is_literal(const Word& word) {
   return (word.flags & Word::is_literal) != 0;
 }
@@ -153,9 +155,11 @@ private:
     for (std::uint32_t i = 0; i < block.words; ++i) {
       const Word& word = program_.words[block.first_word + i];
       if (word.letter != 'P' || !is_literal(word)) continue;
-      const int number = static_cast<int>(word.number);
-      const auto has = [&](int wanted) {
-        return context_.numbers.contains(wanted) || (has_program && has_program(wanted));
+      const auto number = static_cast<std::int64_t>(word.number);
+      const auto has = [&](std::int64_t wanted) {
+        if (wanted > last_program_number) return false;
+        const int program = static_cast<int>(wanted);
+        return context_.numbers.contains(program) || (has_program && has_program(program));
       };
       if (has(number) || (number > 9999 && has(number % 10000))) continue;
       report("missing_program", Severity::Warning, block,

@@ -186,8 +186,7 @@ void explain(Program& program, const std::vector<Old>& old, const std::vector<Un
 class Regeneration {
 public:
   Regeneration(const Program& program, std::vector<Entry> entries)
-      : before_(program), entries_(std::move(entries)) {
-    result_ = program;
+      : before_(program), entries_(std::move(entries)), result_(program) {
     result_.units.clear();
     result_.notes.clear();
   }

@@ -90,6 +90,8 @@ TEST(MacroJob, ParametersOfTheControlAndProgramsByName) {
   EXPECT_EQ(result.at("variables"), (json{{"100", 5}, {"101", 7}, {"102", 26}}));
   job["profile"]["parameters"]["6050"] = 100.5;
   EXPECT_EQ(answered(job).at("error").at("field"), "/profile/parameters/6050");
+  job["profile"]["parameters"] = {{"3401", 1e10}, {"3401#0", 1}};
+  EXPECT_EQ(answered(job).at("error").at("field"), "/profile/parameters/3401#0");
   job["profile"]["parameters"] = {{"x", 1}};
   EXPECT_EQ(answered(job).at("error").at("code"), "bad_input");
 }

@@ -314,6 +314,23 @@ TEST(Robustness, DeepAndLongTextsAreHandled) {
   EXPECT_FALSE(survives(repeated("#1=0\nIF[#1EQ0]GOTO1\n", many / 10) + "N2M30\n"));
 }
 
+TEST(Robustness, NumbersBeyondAnIntAreNamedAsTheyAreWritten) {
+  const auto message = [](const std::string& text) {
+    const Result result = run(text);
+    return result.alarm ? result.alarm->message : "no alarm";
+  };
+  const auto ends_with = [&](const std::string& text, const std::string& end) {
+    return message(text).ends_with(end) ? "" : message(text);
+  };
+  EXPECT_EQ(ends_with("SETVN 999999999999[A]\nM30\n", "#999999999999"), "");
+  EXPECT_EQ(ends_with("SETVN 2147483647[A,B]\nM30\n", "#2147483647"), "");
+  EXPECT_EQ(ends_with("G65P1G99999999999A1\nM30\n", "G99999999999"), "");
+  const std::vector<Finding> findings =
+      check("G65P99999999999A1\nM30\n", {}, [](int) { return false; });
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].message.find("O99999999999 "), 0U);
+}
+
 // A jump searches all labels: many jumps over many labels still end at once.
 TEST(Robustness, JumpsAmongManyLabelsAreQuick) {
   std::string text = "#1=0\nN1#1=#1+1\nIF[#1GT20000]GOTO99999\nGOTO1\n";
