@@ -67,7 +67,7 @@ void Client::Session::send(Lock& lock, Pending& pending, const std::shared_ptr<I
   }
   pending.heard = Clock::now();
   lock.unlock();
-  const wire::Sent sent{pending.id, to->status.name, name_, format, seconds(patience.timeout)};
+  const wire::Sent sent{pending.id, to->name, name_, format, seconds(patience.timeout)};
   const bool is_written = std::visit(
       [&](const auto& what) {
         if constexpr (std::is_same_v<std::decay_t<decltype(what)>, wire::Call>) {
@@ -164,7 +164,8 @@ jobs::Answer Client::Session::wait(Lock& lock, Pending& pending, const Call& cal
         send(lock, pending, to, call, channel, format, patience);
         continue;
       }
-      if (now - last_live_ > (has_seen_any_ ? options_.absence : options_.discovery)) break;
+      const auto patience_without = has_seen_any_ ? options_.absence : options_.discovery;
+      if (!has_live() && now - last_live_ > patience_without) break;  // one may just have come
       pending.changed.wait_until(lock, std::min(deadline, now + match_interval));
     } else {
       pending.changed.wait_until(lock, std::min(deadline, pending.heard + repeat));
@@ -175,7 +176,7 @@ jobs::Answer Client::Session::wait(Lock& lock, Pending& pending, const Call& cal
   return jobs::refusal(
       {ErrorCode::Timeout,
        fmt::format("no answer within {:.3g} s{} to request {}", seconds(patience.timeout),
-                   pending.instance ? " from instance " + pending.instance->status.name : "",
+                   pending.instance ? " from instance " + pending.instance->name : "",
                    wire::text(pending.id)),
        {.field = "",
         .value = fmt::format("{:.3g} s", seconds(patience.timeout)),

@@ -18,7 +18,7 @@ void Instance::open(Way& way, Channel channel) {
   const std::scoped_lock lock(mutex_);
   if (!publisher_) {
     const dds::Qos qos(dds_create_qos());
-    dds::set_partition(qos, dds::instance_partition(status.name));
+    dds::set_partition(qos, dds::instance_partition(name));
     publisher_ = {dds_create_publisher(participant_.get(), qos.get(), nullptr),
                   "dds_create_publisher"};
   }

@@ -18,7 +18,7 @@ enum class Channel { Compute, Change };
 class Instance {
 public:
   Instance(const dds::Entity& participant, wire::InstanceStatus first)
-      : status(std::move(first)), participant_(participant) {}
+      : name(first.name), status(std::move(first)), participant_(participant) {}
 
   /// Can a request leave and its reply come back: is each end matched with the other's?
   bool is_ready(Channel channel, const dds::Entity& reply_reader);
@@ -26,6 +26,8 @@ public:
   bool write(Channel channel, const ridgeline_wire_Request& request,
              std::chrono::milliseconds life);
   void cancel(const wire::RequestId& id);
+
+  const std::string name;  ///< as in `status`, but for those who do not hold the mutex
 
   // Under the mutex of the session:
   wire::InstanceStatus status;
