@@ -55,7 +55,8 @@ Revolution revolution_force(const ChipTable& table, const Deflections& D1, Span 
   const std::int32_t N = table.cut.samples;
   const Deflections D = repeated(table, D1);
   const auto at_theta_o = [&](const Earlier& earlier, std::int32_t shift) -> Eigen::Vector2d {
-    const auto o = static_cast<std::size_t>(earlier.before - shift + N);
+    const std::int32_t before = earlier.before - shift + N;
+    const auto o = static_cast<std::size_t>(before);
     return D[o] + earlier.frac * (D[o + 1] - D[o]);
   };
   Revolution revolution;

@@ -159,7 +159,7 @@ TEST_F(LoopbackJobs, ManyPointsComeWholeAndDoNotHoldUpSmallJobs) {
   while (!is_done) {
     const auto begin = Clock::now();
     ASSERT_EQ(code(other.echo("small")), "ok");
-    EXPECT_LT(Clock::now() - begin, 2s);
+    EXPECT_LT(Clock::now() - begin, slowness * 2s);
     ++small;
     std::this_thread::sleep_for(5ms);
   }
@@ -200,7 +200,7 @@ TEST_F(LoopbackJobs, ATimeoutIsNamedAndEndsTheWork) {
   const jobs::Answer answer =
       client_->ask(long_job(), "json", {.timeout = 500ms, .progress = {}, .stop = {}});
   EXPECT_EQ(code(answer), "timeout");
-  EXPECT_LT(Clock::now() - begin, 1s);
+  EXPECT_LT(Clock::now() - begin, slowness * 1s);
   EXPECT_TRUE(eventually([&] { return client_->status(1s).at(0).running == 0; }));
   ASSERT_TRUE(eventually([&] { return events("north", "request").size() >= 2; }));
   const std::string logged = events("north", "request").back().at("id");
@@ -225,7 +225,7 @@ TEST_F(LoopbackJobs, TerminatedTwiceItCancels) {
   service_->signal(SIGTERM);
   std::this_thread::sleep_for(50ms);
   service_->signal(SIGTERM);
-  EXPECT_EQ(service_->wait(slowness * 5s), 0);
+  EXPECT_EQ(service_->wait(5s), 0);
   asks.join();
   EXPECT_EQ(code(answer), "cancelled");
 }
@@ -267,7 +267,7 @@ TEST_F(LoopbackJobs, AControllerInPlainCAsksWithoutJson) {
     return Process({"/bin/sh", "-c", "exec \"$@\" >" + out, "sh", CONTROLLER, "-d", domain, "-t",
                     "20", "tube-40", "H1", "inner", "entry", tool, "0.5"},
                    folder_ / "controller.log")
-        .wait(slowness * 30s);
+        .wait(30s);
   };
   EXPECT_EQ(run("12"), 0);
   Json job = by_name();
@@ -298,7 +298,7 @@ TEST_F(Loopback, AClientOnAnotherDdsAsksWithTheSameIdl) {
     return Process({"/bin/sh", "-c", "exec \"$@\" >" + out, "sh", FAST_CLIENT, domain,
                     std::to_string(slowness * 20), "tube-40", "H1", tool, "0.5", points},
                    folder_ / "fast.log")
-        .wait(slowness * 30s);
+        .wait(30s);
   };
   EXPECT_EQ(run("12", "72"), 0);
   expect_centres(out, lasting(client.ask(by_name().dump(), "json")).at("centres"));

@@ -11,6 +11,21 @@
 #include <thread>
 
 namespace ridgeline {
+namespace {
+
+int slowness_of_this_run() {
+  const char* variable = std::getenv("RIDGELINE_SLOWNESS");
+  if (variable != nullptr) return std::stoi(variable);
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return 5;
+#else
+  return 1;
+#endif
+}
+
+}  // namespace
+
+const int slowness = slowness_of_this_run();
 
 Process::Process(const std::vector<std::string>& command, const std::filesystem::path& log) {
   std::vector<char*> arguments;
@@ -36,7 +51,7 @@ void Process::signal(int number) const {
 }
 
 int Process::wait(std::chrono::milliseconds limit) {
-  const auto end = std::chrono::steady_clock::now() + limit;
+  const auto end = std::chrono::steady_clock::now() + slowness * limit;
   while (status_ < 0) {
     int status = 0;
     if (waitpid(pid_, &status, WNOHANG) == pid_)
@@ -81,6 +96,7 @@ std::unique_ptr<Process> Loopback::start(const std::string& name, std::vector<st
 client::Options Loopback::options() const {
   client::Options options;
   options.domain = domain_;
+  options.discovery *= slowness;
   return options;
 }
 

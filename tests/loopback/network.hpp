@@ -16,12 +16,9 @@ namespace ridgeline {
 
 using namespace std::chrono_literals;
 
-/// Times as long as in the release that work may take in a build for the sanitizers.
-#ifdef __SANITIZE_ADDRESS__
-inline constexpr int slowness = 5;
-#else
-inline constexpr int slowness = 1;
-#endif
+/// Times as long as in the release that work may take: in a build for the sanitizers, or what
+/// RIDGELINE_SLOWNESS says (scripts/valgrind).
+extern const int slowness;
 
 /// A program started by a test, killed with it at the latest.
 class Process {
@@ -33,7 +30,7 @@ public:
   ~Process();
 
   void signal(int number) const;
-  /// Exit status, or 128 + the signal that ended it; -1: still running after `limit`.
+  /// Exit status, or 128 + the signal that ended it; -1: still running after slowness * `limit`.
   int wait(std::chrono::milliseconds limit);
   pid_t pid() const { return pid_; }
 
@@ -54,10 +51,10 @@ protected:
   client::Options options() const;
   /// The log lines of an instance with that event.
   std::vector<nlohmann::json> events(const std::string& name, const std::string& event) const;
-  /// Waits until a condition holds.
+  /// Waits until a condition holds, slowness * `limit` at most.
   template <class F>
   bool eventually(F&& condition, std::chrono::milliseconds limit = 10s) {
-    for (const auto end = std::chrono::steady_clock::now() + limit;;) {
+    for (const auto end = std::chrono::steady_clock::now() + slowness * limit;;) {
       if (condition()) return true;
       if (std::chrono::steady_clock::now() > end) return false;
       std::this_thread::sleep_for(5ms);
