@@ -29,7 +29,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool has_shadow_memory = true;
 #elif defined(__has_feature)
 constexpr bool has_shadow_memory = __has_feature(address_sanitizer);
