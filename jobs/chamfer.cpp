@@ -23,6 +23,7 @@ double seconds_since(Clock::time_point begin) {
 }
 
 /// A solved job with the certificate of its program: the motion as the program says it, measured.
+/// The motion of `result` is in `program`.
 struct Solved {
   chamfer::Result result;
   nc::Program program;
@@ -36,15 +37,14 @@ Solved solve(const ChamferJob& job, double tolerance, const Progress& progress) 
   chamfer::Job core_job = job.job;
   core_job.tolerance = tolerance;
   Solved solved;
-  solved.result = chamfer::solve(core_job, progress);
+  solved.result = chamfer::solve(core_job, progress.part(0, 0.55));
   solved.program = job.program;
-  solved.program.motion = solved.result.motion;
+  solved.program.motion = std::move(solved.result.motion);
   solved.program.tool_axis = solved.result.tool_axis;
   const Clock::time_point begin = Clock::now();
-  progress.at(0.9, "verify");
-  solved.rounded = nc::rounded(solved.program);
+  solved.rounded = nc::rounded(solved.program, progress.part(0.55, 0.65));
   solved.subject = subject_of(job, solved.result.tool_axis);
-  solved.report = verify::measure(solved.subject, solved.rounded);
+  solved.report = verify::measure(solved.subject, solved.rounded, progress.part(0.65, 1));
   solved.verify_seconds = seconds_since(begin);
   return solved;
 }
@@ -115,10 +115,11 @@ std::vector<std::string> warnings(const ChamferJob& job, const Solved& solved) {
   return all;
 }
 
-Array ends_array(const chamfer::Result& result) {
+Array ends_array(const chamfer::Result& result, const Progress& progress) {
   Array array{"/ends", {result.G1.size(), 6}, {}};
   array.values.reserve(6 * result.G1.size());
   for (std::size_t i = 0; i < result.G1.size(); ++i) {
+    progress.step(i, result.G1.size(), "answer");
     const Eigen::Vector3d &a = result.G1[i], &b = result.G2[i];
     array.values.insert(array.values.end(), {a.x(), a.y(), a.z(), b.x(), b.y(), b.z()});
   }
@@ -157,24 +158,26 @@ void add_plane(const Solved& solved, Answer& answer) {
   answer.document["plane_axes"] = rows;
 }
 
-void add_arrays(const Solved& solved, Answer& answer) {
+void add_arrays(const Solved& solved, const Progress& progress, Answer& answer) {
   const chamfer::Result& result = solved.result;
   answer.arrays.push_back({"/parameter", {result.parameter.size()}, result.parameter});
-  answer.arrays.push_back(points_array("/targets", result.targets));
-  answer.arrays.push_back(points_array("/centres", result.centres));
-  answer.arrays.push_back(ends_array(result));
-  answer.arrays.push_back(moves_array("/moves", solved.rounded, answer.document));
+  answer.arrays.push_back(points_array("/targets", result.targets, progress.part(0, 0.2)));
+  answer.arrays.push_back(points_array("/centres", result.centres, progress.part(0.2, 0.4)));
+  answer.arrays.push_back(ends_array(result, progress.part(0.4, 0.6)));
+  answer.arrays.push_back(
+      moves_array("/moves", solved.rounded, answer.document, progress.part(0.6, 1)));
 }
 
-std::string text_of(const ChamferJob& job, const Solved& solved, const nlohmann::json& document,
-                    std::string_view format) {
-  if (format == "nc") return nc::write(solved.program);
-  if (format == "cl") return nc::write_cl(solved.program);
-  if (format == "csv") return nc::write_csv(solved.rounded);
+std::string text_of(const ChamferJob& job, Solved solved, const nlohmann::json& document,
+                    std::string_view format, const Progress& progress) {
+  if (format == "nc") return nc::write(solved.program, progress);
+  if (format == "cl")
+    return nc::write_cl(std::move(solved.program), nc::cl_arc_tolerance, progress);
+  if (format == "csv") return nc::write_csv(solved.rounded, progress);
   if (format == "macro") return chamfer_macro(job);
   if (format == "svg") return chamfer_drawing(job.job, solved.subject.edge, solved.result);
   if (format == "html") {
-    return chamfer_page(job, solved.result, solved.rounded, solved.subject, document);
+    return chamfer_page(job, solved.result, solved.rounded, solved.subject, document, progress);
   }
   throw Error(ErrorCode::Internal, "a format that chamfer jobs list but do not write");
 }
@@ -185,14 +188,15 @@ Answer chamfer(const Request& request) {
   ChamferJob job = read_chamfer_job(Value(request.document), request.definitions);
   if (request.format == "macro") job.job.method = chamfer::Method::Section;  // all it can compute
   chamfer::validate(job.job);
-  const Solved solved = solve_to_width(job, request.progress);
+  Solved solved = solve_to_width(job, request.progress.part(0, 0.8));
   refuse_failures(job, solved);
+  const Progress rest = request.progress.part(0.8, 1);
   Answer answer = document_of(job, solved);
   if (job.job.arcs) add_plane(solved, answer);
   if (request.format == "json") {
-    add_arrays(solved, answer);
+    add_arrays(solved, rest, answer);
   } else {
-    answer.text = text_of(job, solved, answer.document, request.format);
+    answer.text = text_of(job, std::move(solved), answer.document, request.format, rest);
   }
   return answer;
 }
@@ -202,9 +206,9 @@ InlineProgram inline_program(const nlohmann::json& document, const Definitions& 
   ChamferJob job = read_chamfer_job(Value(document), definitions);
   job.program.kind = nc::ProgramKind::Inline;
   chamfer::validate(job.job);
-  const Solved solved = solve_to_width(job, progress);
+  const Solved solved = solve_to_width(job, progress.part(0, 0.8));
   refuse_failures(job, solved);
-  return {nc::write(solved.program), report(solved)};
+  return {nc::write(solved.program, progress.part(0.8, 1)), report(solved)};
 }
 
 }  // namespace ridgeline::jobs

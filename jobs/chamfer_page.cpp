@@ -132,18 +132,18 @@ private:
   std::vector<tool::Surface> neck_, holder_;
 };
 
-Trace feeds_of(const path::Motion& motion, const Vector3d& to_centre) {
+Trace feeds_of(const path::Motion& motion, const Vector3d& to_centre, const Progress& progress) {
   std::vector<Piece> pieces;
-  for (const Piece& piece : path::pieces_of(motion, to_centre))
+  for (const Piece& piece : path::pieces_of(motion, to_centre, progress))
     if (motion.moves[piece.owner].kind != path::MoveKind::Rapid) pieces.push_back(piece);
-  return Trace(std::move(pieces));
+  return Trace(std::move(pieces), progress);
 }
 
 Loop loop_of(const ChamferJob& job, const chamfer::Result& result, const path::Motion& rounded,
-             const verify::Subject& subject, const PageMotion& motion) {
+             const verify::Subject& subject, const PageMotion& motion, const Progress& progress) {
   const Vector3d to_centre = subject.control_to_centre * subject.tool_axis;
   const double D = tool::cutting_radius(subject.tool);
-  const Trace feeds = feeds_of(rounded, to_centre);
+  const Trace feeds = feeds_of(rounded, to_centre, progress);
   const verify::Band band(subject.edge, feeds, D, subject.width);
   const chamfer::Chamfer wanted{
       .W = subject.width, .D = D, .section_angle = job.job.section_angle, .method = job.job.method};
@@ -156,6 +156,9 @@ Loop loop_of(const ChamferJob& job, const chamfer::Result& result, const path::M
   Loop loop;
   std::size_t hint = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i % 64 == 0 || i % clearance_step == 0) {
+      progress.at(static_cast<double>(i) / static_cast<double>(samples.size()), "page");
+    }
     const Sample& sample = samples[i];
     const chamfer::SectionPoint ideal = job.job.method == chamfer::Method::Swept
                                             ? chamfer::swept_at(section, sample.u)
@@ -276,10 +279,10 @@ Json chamfer_scene(const ChamferJob& job, const chamfer::Result& result,
 
 std::string chamfer_page(const ChamferJob& job, const chamfer::Result& result,
                          const path::Motion& rounded, const verify::Subject& subject,
-                         const Json& document) {
+                         const Json& document, const Progress& progress) {
   const chamfer::Job& j = job.job;
-  const PageMotion motion = page_motion(rounded);
-  const Loop loop = loop_of(job, result, rounded, subject, motion);
+  const PageMotion motion = page_motion(rounded, progress.part(0, 0.2));
+  const Loop loop = loop_of(job, result, rounded, subject, motion, progress.part(0.2, 1));
   const std::string workpiece = j.workpiece.name.empty() ? "the workpiece" : j.workpiece.name;
   Json data = {
       {"job", "chamfer"},

@@ -17,6 +17,6 @@ nlohmann::json chamfer_scene(const ChamferJob& job, const chamfer::Result& resul
 /// without its arrays. `rounded`: the motion of the control point as the program says it.
 std::string chamfer_page(const ChamferJob& job, const chamfer::Result& result,
                          const path::Motion& rounded, const verify::Subject& subject,
-                         const nlohmann::json& document);
+                         const nlohmann::json& document, const Progress& progress);
 
 }  // namespace ridgeline::jobs

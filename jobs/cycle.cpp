@@ -49,9 +49,10 @@ macro::CycleProgram read_program(const Value& value) {
   return program;
 }
 
-std::string program_text(const macro::Cycle& cycle, const macro::CycleProgram& program) {
+std::string program_text(const macro::Cycle& cycle, const macro::CycleProgram& program,
+                         const Progress& progress) {
   try {
-    return macro::cycle_program(cycle, program);
+    return macro::cycle_program(cycle, program, progress);
   } catch (const Error& error) {
     rethrow_at_params(error);
   }
@@ -68,10 +69,11 @@ Answer cycle(const Request& request) {
   const macro::CycleProgram program =
       program_value ? read_program(*program_value) : macro::CycleProgram();
   object.finish();
-  const macro::CycleResult result = solved(cycle, request.progress);
+  const macro::CycleResult result = solved(cycle, request.progress.part(0, 0.6));
+  const Progress rest = request.progress.part(0.8, 1);
 
   Answer answer;
-  answer.document = cycle_document(cycle, result);
+  answer.document = cycle_document(cycle, result, request.progress.part(0.6, 0.8));
   answer.document["job"] = "cycle";
   answer.document["status"] = "ok";
   answer.document["family"] = request.document.at("family");
@@ -79,13 +81,16 @@ Answer cycle(const Request& request) {
     answer.document["method"] = request.document.at("method");
   }
   answer.document["machining_seconds"] = result.motion.seconds;
-  answer.arrays.push_back(macro_moves_array("/motion", result.motion, answer.document));
-  if (request.format == "nc") answer.text = program_text(cycle, program);
-  if (request.format == "csv") answer.text = macro::csv_text(result.motion);
-  if (request.format == "svg") answer.text = macro_drawing(result.motion, "Motion of a cycle");
+  if (request.format == "json") {
+    answer.arrays.push_back(macro_moves_array("/motion", result.motion, answer.document, rest));
+  }
+  if (request.format == "nc") answer.text = program_text(cycle, program, rest);
+  if (request.format == "csv") answer.text = macro::csv_text(result.motion, rest);
+  if (request.format == "svg")
+    answer.text = macro_drawing(result.motion, "Motion of a cycle", rest);
   if (request.format == "html") {
     const std::string title = "Cycle: " + request.document.at("family").get<std::string>();
-    answer.text = macro_page(result.motion, title, answer.document);
+    answer.text = macro_page(result.motion, title, answer.document, rest);
   }
   return answer;
 }

@@ -26,9 +26,11 @@ bool is_half_round(const Cycle& cycle) {
   return cycle.family == Family::HalfConvex || cycle.family == Family::HalfConcave;
 }
 
-Json edge_points(const Cycle& cycle, const CycleResult& result) {
+Json edge_points(const Cycle& cycle, const CycleResult& result, const Progress& progress) {
   Json points = Json::array();
-  for (const macro::CyclePoint& point : result.points) {
+  for (std::size_t i = 0; i < result.points.size(); ++i) {
+    progress.step(i, result.points.size(), "answer");
+    const macro::CyclePoint& point = result.points[i];
     Json each;
     each[cycle.edge == EdgeShape::Straight ? "x" : "angle_deg"] = point.along;
     each["param"] = point.station.param;
@@ -41,9 +43,11 @@ Json edge_points(const Cycle& cycle, const CycleResult& result) {
   return points;
 }
 
-Json section_points(const Cycle& cycle, const CycleResult& result) {
+Json section_points(const Cycle& cycle, const CycleResult& result, const Progress& progress) {
   Json points = Json::array();
-  for (const macro::Station& station : result.stations) {
+  for (std::size_t i = 0; i < result.stations.size(); ++i) {
+    progress.step(i, result.stations.size(), "answer");
+    const macro::Station& station = result.stations[i];
     Json each = {{"phi_deg", degrees(station.param)},
                  {"contact", array_of(station.contact)},
                  {"normal", array_of(station.normal)},
@@ -66,7 +70,7 @@ Json helix_points(const Cycle& cycle, const CycleResult& result) {
   return points;
 }
 
-Json points_of(const Cycle& cycle, const CycleResult& result) {
+Json points_of(const Cycle& cycle, const CycleResult& result, const Progress& progress) {
   Json points = Json::array();
   if (cycle.family == Family::Rotation) {
     for (const macro::RotatedPoint& point : result.rotated) {
@@ -87,14 +91,17 @@ Json points_of(const Cycle& cycle, const CycleResult& result) {
     return points;
   }
   if (!result.offsets.empty()) {
-    for (const macro::OffsetPass& pass : result.offsets) {
+    for (std::size_t i = 0; i < result.offsets.size(); ++i) {
+      progress.step(i, result.offsets.size(), "answer");
+      const macro::OffsetPass& pass = result.offsets[i];
       points.push_back(
           {{"param", pass.param}, {"z_tip", pass.z_tip}, {"comp_radius", pass.offset}});
     }
     return points;
   }
   if (!result.helix.empty()) return helix_points(cycle, result);
-  return is_half_round(cycle) ? section_points(cycle, result) : edge_points(cycle, result);
+  return is_half_round(cycle) ? section_points(cycle, result, progress)
+                              : edge_points(cycle, result, progress);
 }
 
 // The triangle of the guide's straight taper (1).
@@ -165,9 +172,9 @@ void add_counts(const Cycle& cycle, const CycleResult& result, Json& document) {
 
 }  // namespace
 
-Json cycle_document(const Cycle& cycle, const CycleResult& result) {
+Json cycle_document(const Cycle& cycle, const CycleResult& result, const Progress& progress) {
   Json document;
-  document["points"] = points_of(cycle, result);
+  document["points"] = points_of(cycle, result, progress);
   document["stations"] = result.stations.size();
   add_counts(cycle, result, document);
   if (cycle.family != Family::Rotation && cycle.family != Family::Series) {

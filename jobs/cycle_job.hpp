@@ -12,6 +12,7 @@ namespace ridgeline::jobs {
 macro::Cycle read_cycle(Object& job);
 
 /// "points" and the other numbers of a solved cycle, as tests/oracle/cycles has them.
-nlohmann::json cycle_document(const macro::Cycle& cycle, const macro::CycleResult& result);
+nlohmann::json cycle_document(const macro::Cycle& cycle, const macro::CycleResult& result,
+                              const Progress& progress);
 
 }  // namespace ridgeline::jobs

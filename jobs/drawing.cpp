@@ -30,9 +30,10 @@ struct Sheet {
 };
 
 std::vector<Vector2d> projected(const Sheet& sheet, const std::vector<Vector3d>& points) {
+  constexpr std::size_t most = 6000;  // more than pixels
+  const std::size_t step = 1 + points.size() / most;
   std::vector<Vector2d> out;
-  out.reserve(points.size() + 1);
-  for (const Vector3d& p : points) out.push_back(sheet.in(p));
+  for (std::size_t i = 0; i < points.size(); i += step) out.push_back(sheet.in(points[i]));
   if (!out.empty()) out.push_back(out.front());
   return out;
 }

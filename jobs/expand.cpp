@@ -25,19 +25,23 @@ Answer expand(const Request& request) {
 
   Answer answer;
   answer.document = {{"job", "expand"}, {"status", "ok"}, {"calls", nlohmann::json::array()}};
-  std::string text = nc::expand(program, binding.letters, [&](const nc::Call& call) {
-    try {
-      const nlohmann::json job = job_of(call, binding.calls.at(call.macro), request.definitions);
-      InlineProgram motion = inline_program(job, request.definitions, request.progress);
-      answer.document["calls"].push_back({{"line", call.line},
-                                          {"macro", call.macro},
-                                          {"text", call.text},
-                                          {"report", std::move(motion.report)}});
-      return motion.text;
-    } catch (const Error& error) {
-      refuse_at(call, error);
-    }
-  });
+  std::string text = nc::expand(
+      program, binding.letters,
+      [&](const nc::Call& call) {
+        try {
+          const nlohmann::json job =
+              job_of(call, binding.calls.at(call.macro), request.definitions);
+          InlineProgram motion = inline_program(job, request.definitions, request.progress);
+          answer.document["calls"].push_back({{"line", call.line},
+                                              {"macro", call.macro},
+                                              {"text", call.text},
+                                              {"report", std::move(motion.report)}});
+          return motion.text;
+        } catch (const Error& error) {
+          refuse_at(call, error);
+        }
+      },
+      request.progress);
   if (request.format == "json") {
     answer.document["program"] = std::move(text);
   } else {

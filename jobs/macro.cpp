@@ -28,9 +28,11 @@ Json array_of(const Eigen::Vector3d& p) {
   return {p.x(), p.y(), p.z()};
 }
 
-Json trace_of(const macro::Result& result) {
+Json trace_of(const macro::Result& result, const Progress& progress) {
   Json steps = Json::array();
-  for (const macro::TraceStep& step : result.trace) {
+  for (std::size_t i = 0; i < result.trace.size(); ++i) {
+    progress.step(i, result.trace.size(), "trace");
+    const macro::TraceStep& step = result.trace[i];
     Json each = {{"program", step.program},
                  {"line", step.line},
                  {"level", step.level},
@@ -44,7 +46,7 @@ Json trace_of(const macro::Result& result) {
   return steps;
 }
 
-Json document_of(const macro::Result& result) {
+Json document_of(const macro::Result& result, const Progress& progress) {
   Json document = {{"job", "macro"},
                    {"status", result.alarm ? "alarm" : "ok"},
                    {"position", array_of(result.position)},
@@ -66,9 +68,12 @@ Json document_of(const macro::Result& result) {
   if (!result.locals.empty()) document["locals"] = variables_of(result.locals);
   if (!result.prints.empty()) document["prints"] = result.prints;
   if (!result.warnings.empty()) document["warnings"] = result.warnings;
-  if (!result.trace.empty()) document["trace"] = trace_of(result);
+  if (!result.trace.empty()) document["trace"] = trace_of(result, progress.part(0, 0.6));
   Json events = Json::array();
-  for (const macro::Event& event : result.events) {
+  const Progress events_part = progress.part(0.6, 0.8), axes_part = progress.part(0.8, 1);
+  for (std::size_t i = 0; i < result.events.size(); ++i) {
+    events_part.step(i, result.events.size(), "answer");
+    const macro::Event& event = result.events[i];
     events.push_back({{"before", event.before},
                       {"word", event.word},
                       {"program", event.program},
@@ -76,7 +81,9 @@ Json document_of(const macro::Result& result) {
   }
   if (!events.empty()) document["events"] = std::move(events);
   Json axes = Json::array();
-  for (const macro::AxisMove& axis : result.axes) {
+  for (std::size_t i = 0; i < result.axes.size(); ++i) {
+    axes_part.step(i, result.axes.size(), "answer");
+    const macro::AxisMove& axis = result.axes[i];
     axes.push_back({{"move", axis.move}, {"axis", std::string(1, axis.axis)}, {"to", axis.to}});
   }
   if (!axes.empty()) document["axes"] = std::move(axes);
@@ -88,17 +95,21 @@ Answer run(const MacroJob& job, const Request& request) {
   options.library = library_of(job);
   options.named_library = named_library_of(job);
   if (request.format == "trace") options.trace = true;
-  const macro::Result result = macro::run(job.program, options, request.progress);
+  const macro::Result result = macro::run(job.program, options, request.progress.part(0, 0.7));
+  const Progress rest = request.progress.part(0.85, 1);
   Answer answer;
-  answer.document = document_of(result);
-  answer.arrays.push_back(macro_moves_array("/motion", result, answer.document));
-  if (request.format == "nc") answer.text = macro::nc_text(result, {.decimals = job.decimals});
-  if (request.format == "csv") answer.text = macro::csv_text(result);
-  if (request.format == "trace") answer.text = macro::trace_text(result);
-  if (request.format == "svg") answer.text = macro_drawing(result, "Motion of a macro program");
-  if (request.format == "html") {
-    answer.text = macro_page(result, "Motion of a macro program", answer.document);
+  answer.document = document_of(result, request.progress.part(0.7, 0.85));
+  if (request.format == "json") {
+    answer.arrays.push_back(macro_moves_array("/motion", result, answer.document, rest));
   }
+  constexpr std::string_view title = "Motion of a macro program";
+  if (request.format == "nc") {
+    answer.text = macro::nc_text(result, {.decimals = job.decimals}, rest);
+  }
+  if (request.format == "csv") answer.text = macro::csv_text(result, rest);
+  if (request.format == "trace") answer.text = macro::trace_text(result, rest);
+  if (request.format == "svg") answer.text = macro_drawing(result, title, rest);
+  if (request.format == "html") answer.text = macro_page(result, title, answer.document, rest);
   return answer;
 }
 

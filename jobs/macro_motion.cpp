@@ -1,7 +1,9 @@
 #include "jobs/macro_motion.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "core/path/arc.hpp"
 #include "jobs/svg.hpp"
@@ -76,12 +78,14 @@ struct Curves {
   std::vector<std::vector<Vector3d>> rapids, cuts;
 };
 
-Curves curves_of(const macro::Result& result) {
+Curves curves_of(const macro::Result& result, const Progress& progress) {
   Curves curves;
   Vector3d at = Vector3d::Zero();
   bool is_first = true;
   bool was_rapid = false;
-  for (const macro::Move& move : result.motion) {
+  for (std::size_t i = 0; i < result.motion.size(); ++i) {
+    progress.step(i, result.motion.size(), "drawing");
+    const macro::Move& move = result.motion[i];
     if (move.kind == macro::MoveKind::Dwell) continue;
     const bool is_rapid = move.kind == macro::MoveKind::Rapid;
     auto& list = is_rapid ? curves.rapids : curves.cuts;
@@ -102,9 +106,10 @@ struct Bounds {
 };
 
 /// One view: the components i and j of every curve.
-void draw_view(Svg& svg, const Curves& curves, int i, int j, double left, double right) {
+void draw_view(Svg& svg, const Curves& curves, int i, int j, double left, double right,
+               const Progress& progress) {
   Bounds bounds;
-  const auto flat = [&](const std::vector<Vector3d>& curve) {
+  const auto flat = [&](std::span<const Vector3d> curve) {
     std::vector<Vector2d> points;
     points.reserve(curve.size());
     for (const Vector3d& p : curve) points.emplace_back(p[i], p[j]);
@@ -112,6 +117,7 @@ void draw_view(Svg& svg, const Curves& curves, int i, int j, double left, double
   };
   for (const auto* list : {&curves.cuts, &curves.rapids}) {
     for (const auto& curve : *list) {
+      progress.at(1, "drawing");
       for (const Vector2d& p : flat(curve)) {
         bounds.min = bounds.min.cwiseMin(p);
         bounds.max = bounds.max.cwiseMax(p);
@@ -121,28 +127,42 @@ void draw_view(Svg& svg, const Curves& curves, int i, int j, double left, double
   if (!(bounds.min.x() <= bounds.max.x())) return;
   const Vector2d margin = Vector2d::Constant(0.5);
   const View view{bounds.min - margin, bounds.max + margin, {left, 50}, {right, 560}};
+  const auto draw = [&](const std::vector<Vector3d>& curve, std::string_view style) {
+    constexpr std::size_t most = 50'000;  // points between two looks for a cancel
+    for (std::size_t first = 0; first + 1 < curve.size(); first += most) {
+      progress.at(1, "drawing");
+      svg.polyline(
+          view,
+          flat(std::span(curve).subspan(first).first(std::min(most + 1, curve.size() - first))),
+          style);
+    }
+  };
   for (const auto& curve : curves.rapids) {
-    if (curve.size() > 1) svg.polyline(view, flat(curve), "hidden");
+    draw(curve, "hidden");
   }
   for (const auto& curve : curves.cuts) {
-    if (curve.size() > 1) svg.polyline(view, flat(curve), "path");
+    draw(curve, "path");
   }
 }
 
 }  // namespace
 
-Array macro_moves_array(std::string pointer, const macro::Result& result,
-                        nlohmann::json& document) {
+Array macro_moves_array(std::string pointer, const macro::Result& result, nlohmann::json& document,
+                        const Progress& progress) {
   document[nlohmann::json::json_pointer(pointer)] = column_description();
   Array array{std::move(pointer), {result.motion.size(), columns}, {}};
   array.values.reserve(columns * result.motion.size());
-  for (const macro::Move& move : result.motion) append_move(result, move, array.values);
+  for (std::size_t i = 0; i < result.motion.size(); ++i) {
+    progress.step(i, result.motion.size(), "answer");
+    append_move(result, result.motion[i], array.values);
+  }
   return array;
 }
 
-std::string macro_drawing(const macro::Result& result, std::string_view title) {
+std::string macro_drawing(const macro::Result& result, std::string_view title,
+                          const Progress& progress) {
   Svg svg(1200, 600, title);
-  const Curves curves = curves_of(result);
+  const Curves curves = curves_of(result, progress);
   struct Side {
     int right, up;
     const char* name;
@@ -150,7 +170,7 @@ std::string macro_drawing(const macro::Result& result, std::string_view title) {
   };
   constexpr double width = 370;
   for (const Side& side : {Side{0, 1, "X Y", 20}, Side{0, 2, "X Z", 415}, Side{1, 2, "Y Z", 810}}) {
-    draw_view(svg, curves, side.right, side.up, side.left, side.left + width);
+    draw_view(svg, curves, side.right, side.up, side.left, side.left + width, progress);
     svg.text({side.left, 30}, side.name);
   }
   return std::move(svg).finish();

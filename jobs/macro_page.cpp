@@ -26,12 +26,13 @@ std::vector<Vector3d> points_of(const macro::Result& result, const macro::Move& 
   return path::sampled(from, shape, screen_tolerance);
 }
 
-PageMotion motion_of(const macro::Result& result) {
+PageMotion motion_of(const macro::Result& result, const Progress& progress) {
   PageMotion drawn;
   drawn.names = {"rapid", "line", "arc"};  // in the order of MoveKind; a dwell is no way
   bool is_first = true;
   Vector3d from = Vector3d::Zero();
   for (std::size_t i = 0; i < result.motion.size(); ++i) {
+    progress.step(i, result.motion.size(), "page");
     const macro::Move& move = result.motion[i];
     if (move.kind == macro::MoveKind::Dwell) continue;
     if (is_first) {
@@ -81,8 +82,9 @@ Json report_rows(const Json& document) {
 
 }  // namespace
 
-std::string macro_page(const macro::Result& result, std::string_view title, const Json& document) {
-  const PageMotion motion = motion_of(result);
+std::string macro_page(const macro::Result& result, std::string_view title, const Json& document,
+                       const Progress& progress) {
+  const PageMotion motion = motion_of(result, progress);
   Json data = {{"job", document.at("job")},
                {"title", title},
                {"motion", document_of(motion)},

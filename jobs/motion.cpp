@@ -53,20 +53,27 @@ void append_move(const path::Move& move, std::vector<double>& cells) {
 
 }  // namespace
 
-Array points_array(std::string pointer, const std::vector<Eigen::Vector3d>& points) {
+Array points_array(std::string pointer, const std::vector<Eigen::Vector3d>& points,
+                   const Progress& progress) {
   Array array{std::move(pointer), {points.size(), 3}, {}};
   array.values.reserve(3 * points.size());
-  for (const Eigen::Vector3d& p : points) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    progress.step(i, points.size(), "answer");
+    const Eigen::Vector3d& p = points[i];
     array.values.insert(array.values.end(), {p.x(), p.y(), p.z()});
   }
   return array;
 }
 
-Array moves_array(std::string pointer, const path::Motion& motion, nlohmann::json& document) {
+Array moves_array(std::string pointer, const path::Motion& motion, nlohmann::json& document,
+                  const Progress& progress) {
   document[nlohmann::json::json_pointer(pointer)] = column_description();
   Array array{std::move(pointer), {motion.moves.size(), columns}, {}};
   array.values.reserve(columns * motion.moves.size());
-  for (const path::Move& move : motion.moves) append_move(move, array.values);
+  for (std::size_t i = 0; i < motion.moves.size(); ++i) {
+    progress.step(i, motion.moves.size(), "answer");
+    append_move(motion.moves[i], array.values);
+  }
   return array;
 }
 

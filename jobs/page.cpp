@@ -149,7 +149,7 @@ Json page_axis(const char* title, const std::vector<double>& values,
   return axis;
 }
 
-PageMotion page_motion(const path::Motion& motion) {
+PageMotion page_motion(const path::Motion& motion, const Progress& progress) {
   PageMotion drawn;
   for (const auto kind : {path::MoveKind::Rapid, path::MoveKind::Approach, path::MoveKind::LeadIn,
                           path::MoveKind::Cut, path::MoveKind::LeadOut, path::MoveKind::Retract}) {
@@ -160,6 +160,7 @@ PageMotion page_motion(const path::Motion& motion) {
   Vector3d from = drawn.start;
   constexpr double seconds = 60;
   for (std::size_t i = 1; i < motion.moves.size(); ++i) {
+    progress.step(i, motion.moves.size(), "page");
     const path::Move& move = motion.moves[i];
     for (const Vector3d& p : path::sampled(from, move, screen_tolerance)) {
       drawn.kinds.push_back(static_cast<int>(move.kind));

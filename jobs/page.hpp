@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/progress.hpp"
 #include "core/geometry/workpiece.hpp"
 #include "core/path/motion.hpp"
 #include "core/tool/tool.hpp"
@@ -61,7 +62,7 @@ struct PageMotion {
   std::vector<double> feeds;        ///< [mm/min]; 0: rapid
   std::vector<std::size_t> moves;   ///< which move of the result a piece belongs to
 };
-PageMotion page_motion(const path::Motion& motion);
+PageMotion page_motion(const path::Motion& motion, const Progress& progress = {});
 nlohmann::json document_of(const PageMotion& motion);
 
 /// The part as trimmed surfaces.

@@ -27,10 +27,11 @@ struct Measured {
 };
 
 /// A motion that never meets the edge is a failure of the program, not of the request.
-Measured measure(const ChamferJob& job, const path::Motion& motion, const Eigen::Vector3d& axis) {
+Measured measure(const ChamferJob& job, const path::Motion& motion, const Eigen::Vector3d& axis,
+                 const Progress& progress) {
   const verify::Subject subject = subject_of(job, axis);
   try {
-    const verify::Report report = verify::measure(subject, motion);
+    const verify::Report report = verify::measure(subject, motion, progress);
     return {report, failures(job, subject, report)};
   } catch (const Error& error) {
     if (error.code() != ErrorCode::BadInput) throw;
@@ -49,9 +50,9 @@ constexpr double same_axis = radians(0.01);  // a tilted plane is given in angle
 Measured measure_best(const ChamferJob& job, const nc::Reading& reading, const Progress& progress) {
   std::optional<Measured> best;
   for (const Eigen::Vector3d& axis : tool_axes(job.job)) {
-    progress.at(best ? 0.5 : 0, "measure");
     if (reading.tool_axis && angle_between(*reading.tool_axis, axis) > same_axis) continue;
-    Measured measured = measure(job, reading.motion, axis);
+    Measured measured =
+        measure(job, reading.motion, axis, best ? progress.part(0.5, 1) : progress.part(0, 0.5));
     const auto badness = [](const Measured& m) { return std::pair(!m.report, m.failed.size()); };
     const bool is_better = !best || badness(measured) < badness(*best);
     if (is_better) best = std::move(measured);
@@ -62,7 +63,7 @@ Measured measure_best(const ChamferJob& job, const nc::Reading& reading, const P
   ErrorDetails details;
   details.value = "[" + text(axis.x()) + ", " + text(axis.y()) + ", " + text(axis.z()) + "]";
   details.limit = "the job's tool axis within 0.01 degrees";
-  Measured measured = measure(job, reading.motion, axis);
+  Measured measured = measure(job, reading.motion, axis, progress);
   measured.failed.insert(
       measured.failed.begin(),
       Failure{Error(ErrorCode::VerificationFailed,
@@ -122,8 +123,8 @@ Answer verify(const Request& request) {
   const Value program = object.required("program");
   const ChamferJob job = read_chamfer_job(object.required("against"), request.definitions);
   object.finish();
-  const nc::Reading reading = nc::read(program.string());
-  const Measured measured = measure_best(job, reading, request.progress);
+  const nc::Reading reading = nc::read(program.string(), {}, request.progress.part(0, 0.3));
+  const Measured measured = measure_best(job, reading, request.progress.part(0.3, 1));
 
   Answer answer;
   answer.document = {

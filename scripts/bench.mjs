@@ -116,6 +116,13 @@ ratios.push(["empty request and reply / ddsperf's round trip of 100 bytes, p50",
 section('Service beside a bare echo and ddsperf', `${bench('service/bench_service')} 3000`, '```\n' + show(service) + '\n```',
   `\`ddsperf ping\` (half a round trip, median): ${small} us for 100 bytes, ${large} us for 100,000 bytes.`);
 
+// ---- cancel
+const gaps = run(bench('jobs/cancel_gaps'), []);
+const [, longestGap] = gaps.match(/longest of all: ([\d.]+) ms/);
+ratios.push(['longest that a large job goes without a look for a cancel / 100 ms; limit 1', rounded(Number(longestGap) / 100), bench('jobs/cancel_gaps')]);
+section('How soon a cancel stops a job', bench('jobs/cancel_gaps'), show(gaps).trim(),
+  'Wall-clock time of one run of each job. The command writes JSON and packs answers after the last look.');
+
 // ---- growth
 section('Growth', bench('service/bench_growth'), show(run(bench('service/bench_growth'), [])).trim(),
   'Exponents are of the first figure over the row before.');

@@ -168,6 +168,14 @@ void Work::compute(const TaskPointer& task) {
                               },
                           .stop = task->stop.get_token()};
   Ran ran = run(*task, progress);
+  // Nobody waits for it any more: no answer is packed. A change that was made is told all the same.
+  if (task->stop.stop_requested() && task->channel != Channel::Change) {
+    const Error why = [&] {
+      const std::scoped_lock lock(mutex_);
+      return reason_of(task->end);
+    }();
+    ran.answer = jobs::refusal(why);
+  }
   const auto chunks = [&]() -> std::shared_ptr<const wire::Chunks> {
     const std::uint64_t number = ++answer_number_;
     try {
@@ -216,6 +224,12 @@ void Work::cancel(const wire::RequestId& id) {
   }
 }
 
+Error Work::reason_of(End end) {
+  return end == End::Expired
+             ? Error(ErrorCode::Timeout, "the time that the client set was over before the answer")
+             : Error(ErrorCode::Cancelled, "cancelled by the requester");
+}
+
 /// A waiting task is answered at once, a running one when it sees the stop. The mutex is held.
 void Work::end(const TaskPointer& task, End reason) {
   task->end = reason;
@@ -230,10 +244,7 @@ void Work::end(const TaskPointer& task, End reason) {
   --queued_;
   queued_bytes_ -= task->request.text.size();
   known_.erase(task->request.id);
-  refuse(task->request,
-         reason == End::Expired
-             ? Error(ErrorCode::Timeout, "the time of the client was over before it was its turn")
-             : Error(ErrorCode::Cancelled, "cancelled by the requester"));
+  refuse(task->request, reason_of(reason));
 }
 
 void Work::publish_progress(Task& task, Clock::time_point now) {

@@ -76,6 +76,7 @@ private:
   TaskPointer next();
   void compute(const TaskPointer& task);
   Ran run(const Task& task, const Progress& progress) const noexcept;
+  static Error reason_of(End end);
   void end(const TaskPointer& task, End reason);
   void refuse(const wire::Request& request, const Error& error);
   void remember(const TaskPointer& task);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/chamfer/motion.hpp"
@@ -9,7 +10,8 @@
 namespace ridgeline::chamfer {
 
 /// Straight blocks from point to point. Fewer than two points: none.
-std::vector<CutBlock> straight_blocks(const std::vector<CutPoint>& points);
+std::vector<CutBlock> straight_blocks(const std::vector<CutPoint>& points,
+                                      const Progress& progress = {});
 
 /// How arcs follow a polyline of points.
 struct ArcWish {
@@ -23,11 +25,13 @@ struct ArcWish {
 /// Helical arcs, and lines where these are as good.
 struct Blocks {
   std::vector<CutBlock> blocks;
-  double error = 0;  ///< certified bound of the true curve to the blocks [mm]
+  std::vector<std::size_t> index;  ///< of the point that each block ends at
+  double error = 0;                ///< certified bound of the true curve to the blocks [mm]
 };
 
 /// Arcs about the tool axis when it is a machine axis, about that of the tilted work plane
 /// otherwise; for coordinates of the work frame about X, Y or Z, whichever gives fewest.
-Blocks arc_blocks(const std::vector<CutPoint>& points, const ArcWish& wish);
+Blocks arc_blocks(std::span<const CutPoint> points, const ArcWish& wish,
+                  const Progress& progress = {});
 
 }  // namespace ridgeline::chamfer

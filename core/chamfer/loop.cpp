@@ -80,7 +80,7 @@ Loop loop(const geometry::Edge& edge, const Chamfer& chamfer, const Sampling& sa
   const path::ClosedCurve curve = [&] {
     try {
       return path::model([&](double u) { return at(u).C; }, ends, model_share * sampling.tolerance,
-                         progress);
+                         progress.part(0, 0.1));
     } catch (const Error& error) {
       if (error.code() != ErrorCode::NotConverged) throw;
       throw Error(
@@ -90,17 +90,18 @@ Loop loop(const geometry::Edge& edge, const Chamfer& chamfer, const Sampling& sa
     }
   }();
 
+  const Progress chords_part = progress.part(0.1, 0.4);
   Loop loop;
   std::vector<double> u;
   if (sampling.points) {
     u = equal_parameters(start, *sampling.points);
-    loop.chord_error = path::chord_error(curve, u);
-    const double integral = path::curvature_table(curve).integral.back();
+    loop.chord_error = path::chord_error(curve, u, chords_part.part(0, 0.9));
+    const double integral = path::curvature_table(curve, chords_part.part(0.9, 1)).integral.back();
     loop.points_optimal =
         std::max(3, static_cast<int>(std::ceil(integral / std::sqrt(8 * sampling.tolerance))));
   } else {
     path::Chords chords =
-        path::equal_error_chords(curve, ends, sampling.tolerance, sampling.limit, progress);
+        path::equal_error_chords(curve, ends, sampling.tolerance, sampling.limit, chords_part);
     u = std::move(chords.u);
     loop.points_optimal = chords.optimal;
     loop.chord_error = chords.chord_error;
@@ -109,11 +110,9 @@ Loop loop(const geometry::Edge& edge, const Chamfer& chamfer, const Sampling& sa
 
   loop.parameter.reserve(u.size());
   loop.points.reserve(u.size());
+  const Progress points_part = progress.part(0.4, 1);
   for (const double parameter : u) {
-    if (loop.points.size() % 256 == 0) {
-      progress.at(static_cast<double>(loop.points.size()) / static_cast<double>(u.size()),
-                  "points");
-    }
+    points_part.step(loop.points.size(), u.size(), "points");
     loop.parameter.push_back(wrapped(parameter));
     loop.points.push_back(at(parameter));
   }

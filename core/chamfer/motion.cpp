@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/base/text.hpp"
@@ -13,13 +14,16 @@ namespace {
 using Eigen::Vector3d;
 using path::MoveKind;
 
-constexpr double lead_of_radius = 0.5;     ///< lead radius, of the ball's, when none is given
-constexpr int most_halvings = 8;           ///< of a lead radius that does not fit
-constexpr double lead_slack = 0.1;         ///< of the tolerance: what a lead may cut too deep
-constexpr int line_samples = 16;           ///< looked at on a straight way near the edge
-constexpr int places_looked_at = 48;       ///< of a loop, for the room of the tool
-constexpr double largest_feed_ratio = 20;  ///< of the centre's speed to the contact's
-constexpr double same_place = 1e-9;        ///< [mm]
+constexpr double lead_of_radius = 0.5;          ///< lead radius, of the ball's, when none is given
+constexpr std::size_t most_moves_beside = 500;  ///< of a round's blocks: leads, approach, retract
+constexpr int most_lead = 200;                  ///< straight moves of a lead
+constexpr int most_halvings = 8;                ///< of a lead radius that does not fit
+constexpr double lead_slack = 0.1;              ///< of the tolerance: what a lead may cut too deep
+constexpr int line_samples = 16;                ///< looked at on a straight way near the edge
+constexpr int places_looked_at = 48;            ///< of a loop, for the room of the tool
+constexpr double largest_feed_ratio = 20;       ///< of the centre's speed to the contact's
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double same_place = 1e-9;  ///< [mm]
 
 /// Away from the material and square to the travel.
 Vector3d away(const CutPoint& p, const Vector3d& travel) {
@@ -34,7 +38,7 @@ std::vector<Vector3d> lead_arc(const CutPoint& p, const Vector3d& travel, double
   const Vector3d n = away(p, travel);
   const double quarter = std::numbers::pi / 2;
   const double widest = 2 * std::acos(std::max(0.0, 1 - tolerance / r));
-  const int count = std::clamp(static_cast<int>(std::ceil(quarter / widest)), 3, 200);
+  const int count = std::clamp(static_cast<int>(std::ceil(quarter / widest)), 3, most_lead);
   std::vector<Vector3d> points;
   for (int i = 0; i <= count; ++i) {
     const double w = quarter * (count - i) / count;
@@ -100,7 +104,7 @@ public:
         room_(room),
         leads_(room, borders, lead_slack * job.tolerance) {}
 
-  MotionPlan run(const std::vector<Round>& rounds);
+  MotionPlan run(const std::vector<Round>& rounds, const Progress& progress);
 
 private:
   /// Where a lead begins or ends, and the place on the hole's axis that it is reached from.
@@ -108,11 +112,16 @@ private:
     std::vector<Vector3d> arc;  ///< ends on the path
     Vector3d ready;
   };
-  Lead lead(const CutPoint& p, const Vector3d& travel, const std::vector<CutPoint>& loop);
-  std::vector<Vector3d> ready_places(const Vector3d& from, const std::vector<CutPoint>& loop) const;
+  /// Of the ball centre along the hole's axis, lowest and highest.
+  struct Heights {
+    double low, high;
+  };
+  Heights heights(const std::vector<CutPoint>& loop, const Progress& progress) const;
+  Lead lead(const CutPoint& p, const Vector3d& travel, const Heights& loop);
+  std::vector<Vector3d> ready_places(const Vector3d& from, const Heights& loop) const;
   Vector3d base_of(const Vector3d& ready) const;
   void go(MoveKind kind, const Vector3d& to, double feed);
-  void cut(const Round& round);
+  void cut(const Round& round, const Progress& progress);
   void cut_along(const CutBlock& block);
   void approach(const Vector3d& ready);
   void retract();
@@ -140,18 +149,23 @@ Vector3d Planner::base_of(const Vector3d& ready) const {
   return route_.point + (ready - route_.point).dot(route_.outward) * route_.outward;
 }
 
+Planner::Heights Planner::heights(const std::vector<CutPoint>& loop,
+                                  const Progress& progress) const {
+  Heights found{infinity, -infinity};
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    progress.step(i, loop.size(), "motion");
+    const double z = geometry::to_local(edge_.frame, loop[i].C).z();
+    found = {std::min(found.low, z), std::max(found.high, z)};
+  }
+  return found;
+}
+
 // On the hole axis: at the height of the lead, or at the lowest or highest of the loop, or on the
 // way to the bore.
-std::vector<Vector3d> Planner::ready_places(const Vector3d& from,
-                                            const std::vector<CutPoint>& loop) const {
-  const auto height = [&](const Vector3d& p) { return geometry::to_local(edge_.frame, p).z(); };
-  double low = height(from), high = low;
-  for (const CutPoint& p : loop) {
-    low = std::min(low, height(p.C));
-    high = std::max(high, height(p.C));
-  }
+std::vector<Vector3d> Planner::ready_places(const Vector3d& from, const Heights& loop) const {
   std::vector<Vector3d> places;
-  const double start = height(from);
+  const double start = geometry::to_local(edge_.frame, from).z();
+  const double low = std::min(loop.low, start), high = std::max(loop.high, start);
   const double D = room_.ball_radius();
   for (const double z :
        {start, low, high, low - D / 2, high + D / 2, start / 2, low - D, high + D, 0.0}) {
@@ -160,8 +174,7 @@ std::vector<Vector3d> Planner::ready_places(const Vector3d& from,
   return places;
 }
 
-Planner::Lead Planner::lead(const CutPoint& p, const Vector3d& travel,
-                            const std::vector<CutPoint>& loop) {
+Planner::Lead Planner::lead(const CutPoint& p, const Vector3d& travel, const Heights& loop) {
   const double wanted = job_.lead_radius.value_or(lead_of_radius * room_.ball_radius());
   double r = wanted;
   Lead best;
@@ -197,21 +210,25 @@ void Planner::cut_along(const CutBlock& block) {
   if (block.arc) plan_.motion.moves.back().arc = block.arc;
 }
 
-void Planner::cut(const Round& round) {
+void Planner::cut(const Round& round, const Progress& progress) {
   const CutPoint& first = round.points.front();
-  const CutPoint& last = round.blocks.back().to;
   const double slow = job_.lead_in_feed.value_or(job_.feed / 2);
 
-  const Lead in = lead(first, round.first_travel, round.points);
+  const Heights loop = heights(round.points, progress.part(0, 0.2));
+  const Lead in = lead(first, round.first_travel, loop);
   if (plan_.motion.moves.empty()) {
     approach(in.ready);
   } else {
     go(MoveKind::Approach, in.ready, job_.feed);
   }
   for (const Vector3d& c : in.arc) go(MoveKind::LeadIn, c, slow);
-  for (const CutBlock& block : round.blocks) cut_along(block);
+  const Progress blocks = progress.part(0.2, 1);
+  for (std::size_t i = 0; i < round.blocks.size(); ++i) {
+    blocks.step(i, round.blocks.size(), "motion");
+    cut_along(round.blocks[i]);
+  }
 
-  Lead out = lead(last, -round.last_travel, round.points);
+  Lead out = lead(round.last, -round.last_travel, loop);
   std::reverse(out.arc.begin(), out.arc.end());
   for (const Vector3d& c : out.arc) go(MoveKind::LeadOut, c, job_.feed);
   go(MoveKind::LeadOut, out.ready, job_.feed);
@@ -253,8 +270,15 @@ void Planner::look(const std::vector<Round>& rounds) {
   }
 }
 
-MotionPlan Planner::run(const std::vector<Round>& rounds) {
-  for (const Round& round : rounds) cut(round);
+MotionPlan Planner::run(const std::vector<Round>& rounds, const Progress& progress) {
+  std::size_t blocks = 0;
+  for (const Round& round : rounds) blocks += round.blocks.size() + most_moves_beside;
+  plan_.motion.moves.reserve(blocks);
+  for (std::size_t i = 0; i < rounds.size(); ++i) {
+    const double each = 1.0 / static_cast<double>(rounds.size());
+    const double done = each * static_cast<double>(i);
+    cut(rounds[i], progress.part(done, done + each));
+  }
   retract();
   look(rounds);
   return std::move(plan_);
@@ -263,10 +287,11 @@ MotionPlan Planner::run(const std::vector<Round>& rounds) {
 }  // namespace
 
 bool is_climb(const std::vector<CutPoint>& points, const Vector3d& tool_axis,
-              tool::SpindleSense spindle) {
+              tool::SpindleSense spindle, const Progress& progress) {
   const double sign = spindle == tool::SpindleSense::Clockwise ? -1 : 1;
   double along = 0;  // of the tooth's way and the travel
   for (std::size_t i = 0; i < points.size(); ++i) {
+    progress.step(i, points.size(), "motion");
     const CutPoint& here = points[i];
     const CutPoint& next = points[(i + 1) % points.size()];
     const Vector3d k = middle(here) - here.C;
@@ -276,8 +301,9 @@ bool is_climb(const std::vector<CutPoint>& points, const Vector3d& tool_axis,
 }
 
 MotionPlan plan(const Job& job, const geometry::Edge& edge, const Route& route, const Room& room,
-                const std::vector<Round>& rounds, const std::vector<CutPoint>& borders) {
-  return Planner(job, edge, route, room, borders).run(rounds);
+                const std::vector<Round>& rounds, const std::vector<CutPoint>& borders,
+                const Progress& progress) {
+  return Planner(job, edge, route, room, borders).run(rounds, progress);
 }
 
 }  // namespace ridgeline::chamfer

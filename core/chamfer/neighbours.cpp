@@ -13,12 +13,13 @@ constexpr double touching = 1e-6;  ///< walls of holes that lie in one another a
 }  // namespace
 
 std::vector<Neighbour> neighbours(const Job& job, const std::vector<CutPoint>& borders,
-                                  double within) {
+                                  double within, const Progress& progress) {
   const geometry::Material material = geometry::material_of(job.workpiece);
   const std::vector<geometry::Hole>& holes = job.workpiece.holes;
   const std::size_t first = material.cavities.size() - holes.size();  // before them: the bore
   std::vector<Neighbour> near;
   for (std::size_t i = 0; i < holes.size(); ++i) {
+    progress.at(static_cast<double>(i) / static_cast<double>(holes.size()), "neighbours");
     if (holes[i].name == job.hole) continue;
     Neighbour neighbour{.hole = holes[i].name, .distance = within, .at = {}};
     bool is_near = false;

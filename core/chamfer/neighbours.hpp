@@ -17,7 +17,7 @@ struct Neighbour {
 /// The other holes that come nearer than `within` to the borders of a chamfer. Bounds from below:
 /// beyond the end of a hole the true distance is more.
 std::vector<Neighbour> neighbours(const Job& job, const std::vector<CutPoint>& borders,
-                                  double within);
+                                  double within, const Progress& progress = {});
 
 /// Throws Error{WidthTooLarge} when the chamfer runs into one of them.
 void require_clear(const std::vector<Neighbour>& neighbours, double width);

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "core/base/text.hpp"
 #include "core/chamfer/blocks.hpp"
@@ -77,6 +77,13 @@ void require_within_bounds(const geometry::Edge& edge, double u, const SectionPo
   }
 }
 
+/// The rounds on one of the ways that the axis allows.
+struct Way {
+  Route route;
+  MotionPlan plan;
+  Round last;  ///< of the rounds
+};
+
 class Solver {
 public:
   Solver(const Job& job, const Progress& progress)
@@ -94,14 +101,14 @@ private:
             .section_angle = job_.section_angle,
             .method = job_.method};
   }
-  std::vector<CutPoint> sampled(double width);
-  Round oriented(std::vector<CutPoint> points, bool reversed, double width,
-                 const Vector3d& tool_axis);
-  std::vector<CutPoint> overlap(const std::vector<CutPoint>& loop, bool reversed,
-                                double width) const;
+  std::vector<CutPoint> sampled(double width, const Progress& progress);
+  Round oriented(const std::vector<CutPoint>& loop, bool reversed, double width,
+                 const Vector3d& tool_axis, const Progress& progress) const;
+  void overlap(std::vector<CutPoint>& way, bool reversed, double width,
+               const Progress& progress) const;
   std::vector<Route> open_routes() const;
-  MotionPlan plan_along(const Route& route, const geometry::Solid& solid);
-  void fill(const Route& route, MotionPlan plan);
+  Way way_along(const Route& route, const geometry::Solid& solid, const Progress& progress) const;
+  void fill(Way way, const Progress& progress);
   int finer() const;
 
   const Job& job_;
@@ -111,7 +118,6 @@ private:
   std::vector<double> widths_;
   std::vector<std::vector<CutPoint>> loops_;  ///< of each pass, in ascending u
   double sampling_error_ = 0;                 ///< of the loops [mm]
-  std::vector<Round> oriented_;               ///< as cut on the way last planned
   std::vector<CutPoint> borders_;
   Result result_;
 };
@@ -123,59 +129,69 @@ int Solver::finer() const {
 }
 
 // Arcs are fitted to a finer polyline, which takes a small share of the tolerance.
-std::vector<CutPoint> Solver::sampled(double width) {
+std::vector<CutPoint> Solver::sampled(double width, const Progress& progress) {
   const double share = job_.arcs ? arc_sampling : 1;
   Sampling sampling{.tolerance = share * job_.tolerance, .points = {}, .start_u = start_u_};
   if (job_.points) sampling.points = *job_.points * finer();
-  const Loop once = loop(edge_, chamfer(width), sampling, progress_);
+  const Loop once = loop(edge_, chamfer(width), sampling, progress.part(0, 0.9));
   result_.points_optimal =
       static_cast<int>(std::ceil(once.points_optimal * std::sqrt(share) - 1e-9));
-  sampling_error_ = result_.chord_error = once.chord_error;
+  sampling_error_ = once.chord_error;
   std::vector<CutPoint> points;
   points.reserve(once.points.size());
+  const Progress rest = progress.part(0.9, 1);
   for (std::size_t i = 0; i < once.points.size(); ++i) {
+    rest.step(i, once.points.size(), "points");
     require_within_bounds(edge_, once.parameter[i], once.points[i]);
     points.push_back(in_work(edge_, once.parameter[i], once.points[i]));
   }
   return points;
 }
 
-// The points of the loop again as far as the overlap goes, then a point at its very end.
-std::vector<CutPoint> Solver::overlap(const std::vector<CutPoint>& loop, bool reversed,
-                                      double width) const {
-  if (!(job_.overlap > 0)) return {};
+// After a lap, its points again as far as the overlap goes, then a point at its very end.
+void Solver::overlap(std::vector<CutPoint>& way, bool reversed, double width,
+                     const Progress& progress) const {
+  if (!(job_.overlap > 0)) return;
   const double sign = reversed ? -1 : 1;
   const double end_u = parameter_at(edge_, job_.start_angle + sign * job_.overlap);
   const auto travelled = [&](double u) { return wrapped(sign * (u - start_u_)); };
   const double end = job_.overlap < full_turn ? travelled(end_u) : 1;
-  std::vector<CutPoint> again;
-  for (std::size_t i = 1; i < loop.size() && travelled(loop[i].u) < end; ++i) {
-    again.push_back(loop[i]);
+  const std::size_t n = way.size() - 1;
+  for (std::size_t i = 1; i < n && travelled(way[i].u) < end; ++i) {
+    progress.step(i, n, "overlap");
+    way.push_back(way[i]);
   }
   const Chamfer wanted = chamfer(width);
   const SectionPoint last = job_.method == Method::Swept ? swept_at(edge_, wanted, end_u)
                                                          : section_at(edge_, wanted, end_u);
-  again.push_back(in_work(edge_, end_u, last));
-  if (again.size() > 1 && again.back().C == again[again.size() - 2].C) again.pop_back();
-  return again;
+  const bool has_more = way.size() > n + 1;
+  way.push_back(in_work(edge_, end_u, last));
+  if (has_more && way.back().C == way[way.size() - 2].C) way.pop_back();
 }
 
-Round Solver::oriented(std::vector<CutPoint> points, bool reversed, double width,
-                       const Vector3d& tool_axis) {
-  if (reversed) std::reverse(points.begin() + 1, points.end());
-  std::vector<CutPoint> lap = points;
-  lap.push_back(points.front());
-  std::vector<CutPoint> past = {points.front()};
-  for (const CutPoint& p : overlap(points, reversed, width)) past.push_back(p);
+Round Solver::oriented(const std::vector<CutPoint>& loop, bool reversed, double width,
+                       const Vector3d& tool_axis, const Progress& progress) const {
+  const std::size_t n = loop.size();
+  const Progress order = progress.part(0, 0.2), blocks = progress.part(0.3, 0.9),
+                 rest = progress.part(0.9, 1);
+  std::vector<CutPoint> way;
+  way.reserve(2 * n + 2);
+  for (std::size_t i = 0; i <= n; ++i) {
+    order.step(i, n, "order");
+    way.push_back(loop[reversed ? (n - i) % n : i % n]);
+  }
+  overlap(way, reversed, width, progress.part(0.2, 0.3));
 
   Round round;
-  round.first_travel = (points[1].C - points.back().C).normalized();
-  round.last_travel = past.size() == 1 ? round.first_travel
-                                       : (past.back().C - past[past.size() - 2].C).normalized();
+  round.chord_error = sampling_error_;
+  round.first_travel = (way[1].C - way[n - 1].C).normalized();
+  round.last_travel = way.size() == n + 1 ? round.first_travel
+                                          : (way.back().C - way[way.size() - 2].C).normalized();
+  round.last = way.back();
   if (!job_.arcs) {
-    round.points = std::move(points);
-    round.blocks = straight_blocks(lap);
-    for (CutBlock& block : straight_blocks(past)) round.blocks.push_back(std::move(block));
+    round.blocks = straight_blocks(way, blocks);
+    way.resize(n);
+    round.points = std::move(way);
     return round;
   }
   const ArcWish wish{.tool_axis = tool_axis,
@@ -183,46 +199,65 @@ Round Solver::oriented(std::vector<CutPoint> points, bool reversed, double width
                      .tolerance = job_.tolerance,
                      .sampling_error = sampling_error_,
                      .step = job_.points ? static_cast<std::size_t>(finer()) : 0};
-  const Blocks once = arc_blocks(lap, wish);
-  const Blocks again = arc_blocks(past, wish);
-  result_.chord_error = std::max(once.error, again.error);
+  const std::span<const CutPoint> all(way), lap = all.first(n + 1);
+  const Blocks once = arc_blocks(lap, wish, blocks);
+  const Blocks again = arc_blocks(all.subspan(n), wish, rest);
+  round.chord_error = std::max(once.error, again.error);
   round.blocks = once.blocks;
   round.blocks.insert(round.blocks.end(), again.blocks.begin(), again.blocks.end());
   round.points.push_back(lap.front());
-  for (std::size_t i = 0; i + 1 < once.blocks.size(); ++i) {
-    round.points.push_back(once.blocks[i].to);
+  for (std::size_t i = 0; i + 1 < once.index.size(); ++i) {
+    round.points.push_back(lap[once.index[i]]);
   }
   return round;
 }
 
-MotionPlan Solver::plan_along(const Route& route, const geometry::Solid& solid) {
-  const bool climbs = is_climb(loops_.back(), route.tool_axis, job_.tool.spindle);
+Way Solver::way_along(const Route& route, const geometry::Solid& solid,
+                      const Progress& progress) const {
+  const bool climbs =
+      is_climb(loops_.back(), route.tool_axis, job_.tool.spindle, progress.part(0, 0.1));
   const bool reversed = climbs != (job_.direction == Direction::Climb);
-  oriented_.clear();
+  std::vector<Round> rounds;
+  const double each = 0.6 / static_cast<double>(loops_.size());
   for (std::size_t i = 0; i < loops_.size(); ++i) {
-    oriented_.push_back(oriented(loops_[i], reversed, widths_[i], route.tool_axis));
+    const double done = 0.1 + each * static_cast<double>(i);
+    rounds.push_back(oriented(loops_[i], reversed, widths_[i], route.tool_axis,
+                              progress.part(done, done + each)));
   }
   const Room room(solid, job_.tool, route.tool_axis);
-  return plan(job_, edge_, route, room, oriented_, borders_);
+  MotionPlan motion = plan(job_, edge_, route, room, rounds, borders_, progress.part(0.7, 1));
+  return {route, std::move(motion), std::move(rounds.back())};
 }
 
-void Solver::fill(const Route& route, MotionPlan plan) {
-  result_.tool_axis = route.tool_axis;
-  for (const CutPoint& p : oriented_.back().points) {
+void Solver::fill(Way way, const Progress& progress) {
+  result_.tool_axis = way.route.tool_axis;
+  result_.chord_error = way.last.chord_error;
+  const std::vector<CutPoint>& points = way.last.points;
+  for (std::vector<Vector3d>* each :
+       {&result_.targets, &result_.centres, &result_.G1, &result_.G2}) {
+    each->reserve(points.size());
+  }
+  result_.parameter.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    progress.step(i, 2 * points.size(), "points");
+    const CutPoint& p = points[i];
     result_.parameter.push_back(p.u);
     result_.targets.push_back(p.P);
     result_.centres.push_back(p.C);
     result_.G1.push_back(p.G1);
     result_.G2.push_back(p.G2);
   }
-  result_.motion = std::move(plan.motion);
-  result_.warnings = std::move(plan.warnings);
+  result_.motion = std::move(way.plan.motion);
+  result_.warnings = std::move(way.plan.warnings);
   if (job_.control_point == ControlPoint::Centre) return;
-  const Vector3d to_tip = -tool::cutting_radius(job_.tool) * route.tool_axis;
+  const Vector3d to_tip = -tool::cutting_radius(job_.tool) * way.route.tool_axis;
   result_.motion.start += to_tip;
-  for (path::Move& move : result_.motion.moves) {
-    move.to += to_tip;
-    if (move.arc) move.arc->centre += to_tip;
+  std::vector<path::Move>& moves = result_.motion.moves;
+  const Progress rest = progress.part(0.5, 1);
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    rest.step(i, moves.size(), "motion");
+    moves[i].to += to_tip;
+    if (moves[i].arc) moves[i].arc->centre += to_tip;
   }
 }
 
@@ -248,30 +283,31 @@ std::vector<Route> Solver::open_routes() const {
 Result Solver::run() {
   const std::vector<Route> open = open_routes();
   widths_ = job_.pass_widths.empty() ? std::vector<double>{job_.width} : job_.pass_widths;
-  for (const double width : widths_) loops_.push_back(sampled(width));
+  const Progress points = progress_.part(0, 0.7);
+  for (std::size_t i = 0; i < widths_.size(); ++i) {
+    const double each = 1.0 / static_cast<double>(widths_.size());
+    const double done = each * static_cast<double>(i);
+    loops_.push_back(sampled(widths_[i], points.part(done, done + each)));
+  }
   if (job_.spring_pass) {
     widths_.push_back(job_.width);
     loops_.push_back(loops_.back());
   }
   borders_ = borders_of(edge_, chamfer(job_.width));
-  const std::vector<Neighbour> near = neighbours(job_, borders_, job_.width);
+  const Progress rest = progress_.part(0.7, 1);
+  const std::vector<Neighbour> near = neighbours(job_, borders_, job_.width, rest.part(0, 0.1));
   require_clear(near, job_.width);
-  progress_.at(0.8, "motion");
 
+  rest.at(0.1, "motion");
   const geometry::Solid solid(job_.workpiece);
-  double best = -std::numeric_limits<double>::infinity();
+  std::optional<Way> best;
   for (const Route& route : open) {
-    MotionPlan found = plan_along(route, solid);
-    if (!(found.room > best)) continue;
-    best = found.room;
-    result_.parameter.clear();
-    result_.targets.clear();
-    result_.centres.clear();
-    result_.G1.clear();
-    result_.G2.clear();
-    fill(route, std::move(found));
-    if (best > 0) break;
+    Way found = way_along(route, solid, rest.part(0.1, 0.8));
+    if (!best || found.plan.room > best->plan.room) best = std::move(found);
+    if (best->plan.room > 0) break;
   }
+  loops_.clear();
+  fill(*std::move(best), rest.part(0.8, 1));
   for (const Neighbour& neighbour : near) result_.warnings.push_back(warning(neighbour));
   return std::move(result_);
 }

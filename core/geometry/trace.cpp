@@ -100,10 +100,10 @@ Foot nearest(const Piece& piece, const Eigen::Vector3d& p) {
   return foot_at(piece, p, t);
 }
 
-Trace::Trace(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {
+Trace::Trace(std::vector<Piece> pieces, const Progress& progress) : pieces_(std::move(pieces)) {
   if (pieces_.empty()) return;
-  nodes_.resize(2 * pieces_.size() - 1);
-  build(0, 0, pieces_.size());
+  nodes_.reserve(2 * pieces_.size() - 1);
+  build(0, 0, pieces_.size(), progress);
 }
 
 std::size_t Trace::right(std::size_t node) const {
@@ -112,21 +112,23 @@ std::size_t Trace::right(std::size_t node) const {
 }
 
 // A subtree of n leaves takes 2 n - 1 places in a row: node, left subtree, right subtree.
-void Trace::build(std::size_t node, std::size_t first, std::size_t last) {
+void Trace::build(std::size_t node, std::size_t first, std::size_t last, const Progress& progress) {
+  nodes_.emplace_back();  // in the order of the nodes
   Stretch& stretch = nodes_[node];
   stretch.first = first;
   stretch.last = last;
   stretch.a = pieces_[first].a;
   stretch.b = pieces_[last - 1].b;
   if (last - first == 1) {
+    progress.step(first, pieces_.size(), "tree");
     const double sag = pieces_[first].bend / 8;
     stretch.deviation = sag;
     stretch.low = stretch.a.cwiseMin(stretch.b).array() - sag;
     stretch.high = stretch.a.cwiseMax(stretch.b).array() + sag;
     return;
   }
-  build(left(node), first, first + (last - first + 1) / 2);
-  build(right(node), first + (last - first + 1) / 2, last);
+  build(left(node), first, first + (last - first + 1) / 2, progress);
+  build(right(node), first + (last - first + 1) / 2, last, progress);
   const Stretch& one = nodes_[left(node)];
   const Stretch& two = nodes_[right(node)];
   stretch.low = one.low.cwiseMin(two.low);

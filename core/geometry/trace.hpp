@@ -6,6 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "core/base/progress.hpp"
+
 namespace ridgeline::geometry {
 
 /// A circular, helical or (where the rounded radii differ) spiral arc of at most 15 degrees:
@@ -50,7 +52,7 @@ struct Stretch {
 /// children at left() and right(); a leaf has one piece.
 class Trace {
 public:
-  explicit Trace(std::vector<Piece> pieces);
+  explicit Trace(std::vector<Piece> pieces, const Progress& progress = {});
 
   const std::vector<Piece>& pieces() const { return pieces_; }
   const std::vector<Stretch>& nodes() const { return nodes_; }
@@ -65,7 +67,7 @@ public:
                double within = std::numeric_limits<double>::infinity()) const;
 
 private:
-  void build(std::size_t node, std::size_t first, std::size_t last);
+  void build(std::size_t node, std::size_t first, std::size_t last, const Progress& progress);
 
   std::vector<Piece> pieces_;
   std::vector<Stretch> nodes_;

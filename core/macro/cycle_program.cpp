@@ -70,19 +70,15 @@ void write_call(const std::vector<Argument>& arguments, const CycleProgram& opti
   }
 }
 
-std::string complex_twin(const Cycle& cycle) {
-  const CycleResult solved = solve(cycle);
-  return nc_text(solved.motion, {.decimals = 6, .is_linuxcnc = true});
-}
-
 bool is_complex(const Cycle& cycle) {
   return cycle.family == Family::ComplexSide || cycle.family == Family::ComplexCornerR;
 }
 
 }  // namespace
 
-std::string cycle_program(const Cycle& cycle, const CycleProgram& options) {
-  solve(cycle);  // what cannot be cut is refused here too
+std::string cycle_program(const Cycle& cycle, const CycleProgram& options,
+                          const Progress& progress) {
+  const CycleResult solved = solve(cycle, progress);  // what cannot be cut is refused here too
   if (is_complex(cycle) && !cycle.outline) {
     ErrorDetails details;
     details.field = "outline";
@@ -92,7 +88,9 @@ std::string cycle_program(const Cycle& cycle, const CycleProgram& options) {
   if (is_macro && options.dialect == ProgramDialect::LinuxCnc) {
     throw Error(ErrorCode::Unsupported, "the LinuxCNC twin is a main program");
   }
-  if (is_complex(cycle) && options.dialect == ProgramDialect::LinuxCnc) return complex_twin(cycle);
+  if (is_complex(cycle) && options.dialect == ProgramDialect::LinuxCnc) {
+    return nc_text(solved.motion, {.decimals = 6, .is_linuxcnc = true}, progress);
+  }
 
   MacroText text(options.dialect);
   text.line("%");

@@ -38,12 +38,13 @@ public:
   NcWriter(const Result& result, const NcStyle& style)
       : result_(result), decimals_(style.decimals), is_linuxcnc_(style.is_linuxcnc) {}
 
-  std::string run() {
+  std::string run(const Progress& progress) {
     const int number = result_.motion.empty() ? 1 : std::max(1, result_.motion.front().program);
     out_ = is_linuxcnc_ ? "%\n(EXPANDED)\n" : "%\nO" + std::to_string(number) + "(EXPANDED)\n";
     out_ += "G90 G21 G40 G49 G80\n";
     std::size_t event = 0, axis = 0;
     for (std::size_t i = 0; i < result_.motion.size(); ++i) {
+      progress.step(i, result_.motion.size(), "program");
       for (; event < result_.events.size() && result_.events[event].before <= i; ++event) {
         function(result_.events[event].word);
       }
@@ -170,15 +171,19 @@ void append(std::string& line, const Vector3d& p) {
 
 }  // namespace
 
-std::string nc_text(const Result& result, const NcStyle& style) {
-  return NcWriter(result, style).run();
+std::string nc_text(const Result& result, const NcStyle& style, const Progress& progress) {
+  return NcWriter(result, style).run(progress);
 }
 
-std::string csv_text(const Result& result) {
+std::string csv_text(const Result& result, const Progress& progress) {
   std::string out =
       "kind,x,y,z,machine_x,machine_y,machine_z,centre_x,centre_y,centre_z,plane,sense,turns,feed,"
       "seconds,program,line\n";
-  for (const Move& move : result.motion) {
+  constexpr std::size_t usual_line = 128;
+  out.reserve(usual_line * result.motion.size());
+  for (std::size_t i = 0; i < result.motion.size(); ++i) {
+    progress.step(i, result.motion.size(), "program");
+    const Move& move = result.motion[i];
     out += kind_names[static_cast<std::size_t>(move.kind)];
     append(out, move.to);
     append(out, machine_of(result, move));
@@ -198,9 +203,11 @@ std::string csv_text(const Result& result) {
   return out;
 }
 
-std::string trace_text(const Result& result) {
+std::string trace_text(const Result& result, const Progress& progress) {
   std::string out;
-  for (const TraceStep& step : result.trace) {
+  for (std::size_t i = 0; i < result.trace.size(); ++i) {
+    progress.step(i, result.trace.size(), "trace");
+    const TraceStep& step = result.trace[i];
     out += numbered("O", step.program) + ":" + std::to_string(step.line) + "  " + step.text;
     if (step.variable) {
       out += numbered("    #", *step.variable) + "=" +

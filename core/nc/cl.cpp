@@ -34,20 +34,21 @@ double per_minute(double feed) {
 }
 
 /// The program that a post-processor would start from: straight moves in the work frame.
-Program in_chords(Program program, double arc_tolerance) {
+Program in_chords(Program program, double arc_tolerance, const Progress& progress) {
   program.dialect = Dialect::Fanuc;
   program.work_offset.clear();
   program.tilted = TiltedOutput::WorkFrame;
-  program.motion = path::linearised(program.motion, arc_tolerance);
+  program.motion = path::linearised(program.motion, arc_tolerance, progress);
   return program;
 }
 
 class ClWriter {
 public:
-  ClWriter(const Program& program, double arc_tolerance)
-      : program_(program), motion_(rounded(in_chords(program, arc_tolerance))) {}
+  ClWriter(Program program, double arc_tolerance, const Progress& progress)
+      : program_(in_chords(std::move(program), arc_tolerance, progress.part(0, 0.2))),
+        motion_(rounded(program_, progress.part(0.2, 0.5))) {}
 
-  std::string run() {
+  std::string run(const Progress& progress) {
     line("PARTNO/RIDGELINE " + std::to_string(program_.number));
     for (std::string comment : comment_lines(program_.comments, Dialect::Fanuc)) {
       for (char& c : comment) {
@@ -65,7 +66,10 @@ public:
     if (program_.coolant == Coolant::Flood) line("COOLNT/FLOOD");
     if (program_.coolant == Coolant::Mist) line("COOLNT/MIST");
     rapid_to(motion_.start);
-    for (const path::Move& move : motion_.moves) add(move);
+    for (std::size_t i = 0; i < motion_.moves.size(); ++i) {
+      progress.step(i, motion_.moves.size(), "program");
+      add(motion_.moves[i]);
+    }
     if (program_.coolant != Coolant::None) line("COOLNT/OFF");
     if (program_.spindle_speed > 0) line("SPINDL/OFF");
     if (is_multax()) line("MULTAX/OFF");
@@ -103,7 +107,7 @@ private:
     go_to(move.to);
   }
 
-  const Program& program_;
+  Program program_;  ///< in chords
   path::Motion motion_;
   std::string text_;
   double feed_ = 0;
@@ -121,11 +125,11 @@ std::string arc_cells(const std::optional<path::Arc>& arc) {
 
 }  // namespace
 
-std::string write_cl(const Program& program, double arc_tolerance) {
-  return ClWriter(program, arc_tolerance).run();
+std::string write_cl(Program program, double arc_tolerance, const Progress& progress) {
+  return ClWriter(std::move(program), arc_tolerance, progress).run(progress.part(0.5, 1));
 }
 
-std::string write_csv(const path::Motion& motion) {
+std::string write_csv(const path::Motion& motion, const Progress& progress) {
   const auto cells = [](const Eigen::Vector3d& point, double feed) {
     return exact(point.x()) + ',' + exact(point.y()) + ',' + exact(point.z()) + ',' +
            exact(per_minute(feed));
@@ -134,7 +138,9 @@ std::string write_csv(const path::Motion& motion) {
   text += "0,start," + cells(motion.start, 0) + arc_cells(std::nullopt) + '\n';
   std::size_t index = 0;
   Eigen::Vector3d from = motion.start;
-  for (const path::Move& move : motion.moves) {
+  for (std::size_t i = 0; i < motion.moves.size(); ++i) {
+    progress.step(i, motion.moves.size(), "program");
+    const path::Move& move = motion.moves[i];
     std::vector<path::Move> rows{move};
     if (move.arc && move.arc->axes != Eigen::Matrix3d::Identity()) {
       rows = path::linearised({from, {move}}, csv_arc_tolerance).moves;

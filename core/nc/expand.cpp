@@ -111,10 +111,12 @@ public:
   Expander(const Binding& binding, const std::function<std::string(const Call&)>& motion)
       : binding_(binding), motion_(motion) {}
 
-  std::string run(std::string_view program) {
+  std::string run(std::string_view program, const Progress& progress) {
     std::string text;
     int number = 0;
+    const std::size_t size = program.size();
     while (!program.empty()) {
+      if (number % 1024 == 0) progress.at(read_share(program, size), "reading");
       const std::size_t end = program.find('\n');
       const std::string_view line = program.substr(0, end == program.npos ? end : end + 1);
       program.remove_prefix(line.size());
@@ -268,9 +270,10 @@ Binding default_binding() {
 }
 
 std::string expand(std::string_view program, const Binding& binding,
-                   const std::function<std::string(const Call&)>& motion) {
+                   const std::function<std::string(const Call&)>& motion,
+                   const Progress& progress) {
   check(binding);
-  return Expander(binding, motion).run(program);
+  return Expander(binding, motion).run(program, progress);
 }
 
 }  // namespace ridgeline::nc

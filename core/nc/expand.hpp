@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/progress.hpp"
 #include "core/nc/program.hpp"
 
 /// Macro calls in an NC program replaced by the motion that they ask for (document 000, claim 9).
@@ -67,6 +68,7 @@ struct Call {
 /// same letter, a value that is a variable or an expression, another word in the block; and
 /// Error{Unsupported} for an optional block (/), for G66 of a bound macro and L above 100.
 std::string expand(std::string_view program, const Binding& binding,
-                   const std::function<std::string(const Call&)>& motion);
+                   const std::function<std::string(const Call&)>& motion,
+                   const Progress& progress = {});
 
 }  // namespace ridgeline::nc

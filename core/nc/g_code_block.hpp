@@ -42,6 +42,11 @@ char upper_case(char c);
 bool is_letter(char c);
 std::string_view trimmed(std::string_view text);
 
+/// How much of a text of `size` bytes is read when `rest` is left of it.
+inline double read_share(std::string_view rest, std::size_t size) {
+  return 1 - static_cast<double>(rest.size()) / static_cast<double>(size);
+}
+
 /// "a, b,c" in pieces without the blanks around them.
 std::vector<std::string> pieces(std::string_view text);
 

@@ -22,8 +22,10 @@ public:
   GCodeReader(std::string_view text, Dialect dialect, const ReadOptions& options)
       : rest_(text), dialect_(dialect), tracer_(options) {}
 
-  Reading run() {
+  Reading run(const Progress& progress) {
+    const std::size_t size = rest_.size();
     while (!rest_.empty() && !has_ended_) {
+      if (number_ % 1024 == 0) progress.at(read_share(rest_, size), "reading");
       const std::size_t end = std::min(rest_.find('\n'), rest_.size());
       line(trimmed(rest_.substr(0, end)), ++number_);
       rest_.remove_prefix(std::min(end + 1, rest_.size()));
@@ -388,8 +390,9 @@ private:
 
 }  // namespace
 
-Reading read_g_code(std::string_view text, Dialect dialect, const ReadOptions& options) {
-  return GCodeReader(text, dialect, options).run();
+Reading read_g_code(std::string_view text, Dialect dialect, const ReadOptions& options,
+                    const Progress& progress) {
+  return GCodeReader(text, dialect, options).run(progress);
 }
 
 }  // namespace ridgeline::nc

@@ -44,7 +44,7 @@ public:
         plane_(plane_word(length_axis(program))),
         blocks_("N", program.block_number_step, program.block_number_step.value_or(0)) {}
 
-  std::string run() {
+  std::string run(const Progress& progress) {
     if (is_inline()) {
       for (const std::string& line : head_comments(program_)) comment(line);
       blocks_.block(plane_ + (dialect_ == Dialect::Fanuc ? " G21 G90 G94" : " G21 G90 G91.1 G94"));
@@ -54,7 +54,10 @@ public:
     }
     approach();
     if (program_.positioning == Positioning::Incremental) blocks_.block("G91");
-    for (const Step& step : plan_.steps) motion(step);
+    for (std::size_t i = 0; i < plan_.steps.size(); ++i) {
+      progress.step(i, plan_.steps.size(), "program");
+      motion(plan_.steps[i]);
+    }
     if (program_.positioning == Positioning::Incremental) blocks_.block("G90");
     if (!is_inline()) end();
     return blocks_.take();
@@ -271,8 +274,8 @@ private:
 
 }  // namespace
 
-std::string write_g_code(const Program& program, const Plan& plan) {
-  return GCodeWriter(program, plan).run();
+std::string write_g_code(const Program& program, const Plan& plan, const Progress& progress) {
+  return GCodeWriter(program, plan).run(progress);
 }
 
 }  // namespace ridgeline::nc

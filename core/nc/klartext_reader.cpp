@@ -19,8 +19,12 @@ public:
   KlartextReader(std::string_view text, const ReadOptions& options)
       : rest_(text), tracer_(options) {}
 
-  Reading run() {
-    while (!rest_.empty() && !has_ended_) block();
+  Reading run(const Progress& progress) {
+    const std::size_t size = rest_.size();
+    for (int blocks = 0; !rest_.empty() && !has_ended_; ++blocks) {
+      if (blocks % 1024 == 0) progress.at(read_share(rest_, size), "reading");
+      block();
+    }
     return tracer_.take(Dialect::Heidenhain);
   }
 
@@ -375,8 +379,8 @@ private:
 
 }  // namespace
 
-Reading read_klartext(std::string_view text, const ReadOptions& options) {
-  return KlartextReader(text, options).run();
+Reading read_klartext(std::string_view text, const ReadOptions& options, const Progress& progress) {
+  return KlartextReader(text, options).run(progress);
 }
 
 }  // namespace ridgeline::nc

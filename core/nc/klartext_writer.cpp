@@ -23,13 +23,16 @@ public:
         axis_(static_cast<std::size_t>(length_axis(program))),
         blocks_("", 0, 1) {}
 
-  std::string run() {
+  std::string run(const Progress& progress) {
     const std::string name = std::to_string(program_.number);
     blocks_.block("BEGIN PGM " + name + " MM");
     for (const std::string& line : head_comments(program_)) blocks_.block("; " + line);
     prepare();
     approach();
-    for (const Step& step : plan_.steps) motion(step);
+    for (std::size_t i = 0; i < plan_.steps.size(); ++i) {
+      progress.step(i, plan_.steps.size(), "program");
+      motion(plan_.steps[i]);
+    }
     end();
     blocks_.block("END PGM " + name + " MM");
     return blocks_.take();
@@ -174,8 +177,8 @@ private:
 
 }  // namespace
 
-std::string write_klartext(const Program& program, const Plan& plan) {
-  return KlartextWriter(program, plan).run();
+std::string write_klartext(const Program& program, const Plan& plan, const Progress& progress) {
+  return KlartextWriter(program, plan).run(progress);
 }
 
 }  // namespace ridgeline::nc

@@ -36,12 +36,13 @@ public:
         centre_scale_(static_cast<double>(power_of_ten(centre_decimals(program)))),
         plan_{plane_axes(program), {}, {}} {}
 
-  Plan run() {
+  Plan run(const Progress& progress) {
     exact_ = program_.motion.start;
     plan_.start = at_ = grid(local(exact_), "the start");
     real_ = real(at_);
     plan_.steps.reserve(program_.motion.moves.size());
     for (index_ = 0; index_ < program_.motion.moves.size(); ++index_) {
+      progress.step(index_, program_.motion.moves.size(), "rounding");
       add(program_.motion.moves[index_]);
     }
     return std::move(plan_);
@@ -263,9 +264,9 @@ Eigen::Vector3d polar_end(const Eigen::Vector3d& from, const Eigen::Vector3d& ce
   return end;
 }
 
-Plan plan(const Program& program) {
+Plan plan(const Program& program, const Progress& progress) {
   validate(program);
-  return Rounding(program).run();
+  return Rounding(program).run(progress);
 }
 
 }  // namespace ridgeline::nc

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/progress.hpp"
 #include "core/nc/program.hpp"
 
 /// The motion of a program in whole units of its last decimal: what the writers print and what
@@ -49,7 +50,7 @@ constexpr int centre_decimals(const Program& program) {
 }
 
 /// Checks the program and rounds its motion. Throws Error{BadInput} or Error{Unsupported}.
-Plan plan(const Program& program);
+Plan plan(const Program& program, const Progress& progress = {});
 
 /// End of a turn about a centre in the plane (HEIDENHAIN CP), at the start's radius, rounded to
 /// 1e-9 mm. `turn` in 1e-9 degree, signed; `height` is the third coordinate of the end.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/progress.hpp"
 #include "core/path/motion.hpp"
 
 namespace ridgeline::nc {
@@ -41,12 +42,12 @@ struct Program {
 };
 
 /// The program text, LF line ends. Throws Error{BadInput} or Error{Unsupported}.
-std::string write(const Program& program);
+std::string write(const Program& program, const Progress& progress = {});
 
 /// The motion as the text of write() says it: every coordinate rounded to the decimals, incremental
 /// remainders carried, moves that print nothing left out. What a control would run, and what verify
 /// measures.
-path::Motion rounded(const Program& program);
+path::Motion rounded(const Program& program, const Progress& progress = {});
 
 /// The axes of the coordinates that write() prints, as columns in the work frame. Identity for a
 /// machine axis and for TiltedOutput::WorkFrame. The tilted work plane keeps the origin of the work

@@ -5,8 +5,10 @@
 
 namespace ridgeline::nc {
 
-Dialect dialect_of(std::string_view text) {
+Dialect dialect_of(std::string_view text, const Progress& progress) {
+  std::size_t lines = 0;
   while (!text.empty()) {
+    if (lines++ % 1024 == 0) progress.at(0, "dialect");
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = trimmed(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
@@ -22,10 +24,10 @@ Dialect dialect_of(std::string_view text) {
   return Dialect::Fanuc;
 }
 
-Reading read(std::string_view program, const ReadOptions& options) {
-  const Dialect dialect = options.dialect.value_or(dialect_of(program));
-  if (dialect == Dialect::Heidenhain) return read_klartext(program, options);
-  return read_g_code(program, dialect, options);
+Reading read(std::string_view program, const ReadOptions& options, const Progress& progress) {
+  const Dialect dialect = options.dialect ? *options.dialect : dialect_of(program, progress);
+  if (dialect == Dialect::Heidenhain) return read_klartext(program, options, progress);
+  return read_g_code(program, dialect, options, progress);
 }
 
 }  // namespace ridgeline::nc

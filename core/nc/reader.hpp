@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/progress.hpp"
 #include "core/nc/program.hpp"
 
 /// Reads a program from elsewhere into the motion that it commands.
@@ -57,9 +58,10 @@ struct Reading {
 /// Throws Error{BadFile} for what is not understood, Error{Unsupported} for what is, but not
 /// offered (cutting in two work offsets, planes or tools, cycles, radius compensation). Both with
 /// `field` "line 12" and `value` the word.
-Reading read(std::string_view program, const ReadOptions& options = {});
+Reading read(std::string_view program, const ReadOptions& options = {},
+             const Progress& progress = {});
 
 /// Klartext and Siemens by their heads, LinuxCNC by its o-words; else FANUC.
-Dialect dialect_of(std::string_view program);
+Dialect dialect_of(std::string_view program, const Progress& progress = {});
 
 }  // namespace ridgeline::nc

@@ -103,7 +103,8 @@ inline constexpr Nano largest_read = 1'000'000 * nano;
 /// M codes that neither move nor end.
 bool is_harmless_m(int code);
 
-Reading read_g_code(std::string_view text, Dialect dialect, const ReadOptions& options);
-Reading read_klartext(std::string_view text, const ReadOptions& options);
+Reading read_g_code(std::string_view text, Dialect dialect, const ReadOptions& options,
+                    const Progress& progress);
+Reading read_klartext(std::string_view text, const ReadOptions& options, const Progress& progress);
 
 }  // namespace ridgeline::nc

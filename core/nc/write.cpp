@@ -21,14 +21,16 @@ std::vector<std::string> head_comments(const Program& program) {
   return comment_lines(comments, program.dialect);
 }
 
-std::string write(const Program& program) {
-  const Plan steps = plan(program);
-  return program.dialect == Dialect::Heidenhain ? write_klartext(program, steps)
-                                                : write_g_code(program, steps);
+std::string write(const Program& program, const Progress& progress) {
+  const Plan steps = plan(program, progress.part(0, 0.5));
+  const Progress rest = progress.part(0.5, 1);
+  return program.dialect == Dialect::Heidenhain ? write_klartext(program, steps, rest)
+                                                : write_g_code(program, steps, rest);
 }
 
-path::Motion rounded(const Program& program) {
-  const Plan steps = plan(program);
+path::Motion rounded(const Program& program, const Progress& progress) {
+  const Plan steps = plan(program, progress.part(0, 0.7));
+  const Progress rest = progress.part(0.7, 1);
   const auto in_work = [&](const Grid& at, int decimals) {
     const auto scale = static_cast<double>(power_of_ten(decimals));
     const Eigen::Vector3d point(static_cast<double>(at[0]) / scale,
@@ -38,7 +40,9 @@ path::Motion rounded(const Program& program) {
   };
   path::Motion motion{in_work(steps.start, program.decimals), {}};
   motion.moves.reserve(steps.steps.size());
-  for (const Step& step : steps.steps) {
+  for (std::size_t i = 0; i < steps.steps.size(); ++i) {
+    rest.step(i, steps.steps.size(), "rounding");
+    const Step& step = steps.steps[i];
     path::Move move{step.kind, steps.axes * step.end, static_cast<double>(step.feed) / 1000 / 60,
                     std::nullopt};
     if (step.arc) {

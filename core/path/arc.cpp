@@ -117,10 +117,13 @@ std::vector<Eigen::Vector3d> sampled(const Eigen::Vector3d& from, const Move& mo
   return points;
 }
 
-Motion linearised(const Motion& motion, double tolerance) {
+Motion linearised(const Motion& motion, double tolerance, const Progress& progress) {
   Motion lines{motion.start, {}};
   Eigen::Vector3d from = motion.start;
-  for (const Move& move : motion.moves) {
+  lines.moves.reserve(motion.moves.size());
+  for (std::size_t i = 0; i < motion.moves.size(); ++i) {
+    progress.step(i, motion.moves.size(), "moves");
+    const Move& move = motion.moves[i];
     for (const Eigen::Vector3d& point : sampled(from, move, tolerance)) {
       lines.moves.push_back({move.kind, point, move.feed, std::nullopt});
     }

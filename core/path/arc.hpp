@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/progress.hpp"
 #include "core/path/motion.hpp"
 
 namespace ridgeline::path {
@@ -50,6 +51,6 @@ std::vector<Eigen::Vector3d> sampled(const Eigen::Vector3d& from, const Move& mo
                                      double tolerance);
 
 /// The motion with arcs as straight moves of the same kind and feed; chord error <= tolerance [mm].
-Motion linearised(const Motion& motion, double tolerance);
+Motion linearised(const Motion& motion, double tolerance, const Progress& progress = {});
 
 }  // namespace ridgeline::path

@@ -68,11 +68,17 @@ struct Circle {
 class Fitter {
 public:
   Fitter(const std::vector<Eigen::Vector3d>& points, double tolerance, double curve_error,
-         ArcPlane plane, const Eigen::Matrix3d& axes)
-      : plane_(plane), axes_(axes), room_(tolerance - curve_error), curve_error_(curve_error) {
+         ArcPlane plane, const Eigen::Matrix3d& axes, const Progress& progress)
+      : plane_(plane),
+        axes_(axes),
+        room_(tolerance - curve_error),
+        curve_error_(curve_error),
+        progress_(progress) {
     const auto [i, j, k] = axes_of(plane);
     points_.reserve(points.size());
-    for (const Eigen::Vector3d& point : points) {
+    for (std::size_t n = 0; n < points.size(); ++n) {
+      if (n % 1024 == 0) progress.at(0, "arcs");
+      const Eigen::Vector3d& point = points[n];
       points_.emplace_back(point.dot(axes.col(i)), point.dot(axes.col(j)), point.dot(axes.col(k)));
     }
   }
@@ -80,7 +86,10 @@ public:
   ArcFit run() {
     // Forwards: from each joint as far as any height of it allows.
     joints_.push_back({0, std::nullopt, {0, 0}});
-    while (joints_.back().at + 1 < points_.size()) joints_.push_back(farthest(joints_.back()));
+    while (joints_.back().at + 1 < points_.size()) {
+      done_ = static_cast<double>(joints_.back().at) / static_cast<double>(points_.size());
+      joints_.push_back(farthest(joints_.back()));
+    }
     // Backwards: the heights, the last one on the curve.
     heights_.assign(joints_.size(), 0);
     for (std::size_t n = joints_.size() - 1; n > 0; --n) {
@@ -120,8 +129,9 @@ private:
   }
 
   /// Bulge whose largest deviations to both sides are equal; they grow steadily with the bulge.
-  static Circle balanced(const Span& span) {
+  Circle balanced(const Span& span) const {
     const auto unbalance = [&](double bulge) {
+      progress_.at(done_, "arcs");
       const Circle circle(bulge, span.chord);
       Interval seen{infinity, -infinity};
       for (std::size_t k = 0; k < span.x.size(); ++k) {
@@ -316,6 +326,7 @@ private:
   ArcFit result() const {
     ArcFit fit;
     for (std::size_t n = 1; n < joints_.size(); ++n) {
+      progress_.step(n, joints_.size(), "arcs");
       const Link& link = *joints_[n].link;
       Eigen::Vector3d to = points_[link.to];
       to.z() += heights_[n];
@@ -353,15 +364,17 @@ private:
   Eigen::Matrix3d axes_;
   double room_;  ///< of the tolerance, for the distance of the moves to the polyline
   double curve_error_;
+  const Progress& progress_;
   std::vector<Eigen::Vector3d> points_;  ///< first, second, third axis of the plane
   std::vector<Joint> joints_;
   std::vector<double> heights_;
+  double done_ = 0;  ///< share of the points
 };
 
 }  // namespace
 
 ArcFit fit_arcs(const std::vector<Eigen::Vector3d>& points, double tolerance, double curve_error,
-                ArcPlane plane, const Eigen::Matrix3d& axes) {
+                ArcPlane plane, const Eigen::Matrix3d& axes, const Progress& progress) {
   if (!(curve_error >= 0 && tolerance > curve_error && tolerance < infinity)) {
     throw Error(ErrorCode::BadInput, "arcs: tolerance " + std::to_string(tolerance) +
                                          " mm must be greater than the error of the points, " +
@@ -369,11 +382,12 @@ ArcFit fit_arcs(const std::vector<Eigen::Vector3d>& points, double tolerance, do
   }
   if (points.size() < 2) throw Error(ErrorCode::BadInput, "arcs need two points or more");
   for (std::size_t n = 1; n < points.size(); ++n) {
+    if (n % 1024 == 0) progress.at(0, "arcs");
     if (!((points[n] - points[n - 1]).norm() > 0)) {
       throw Error(ErrorCode::BadInput, "point " + std::to_string(n) + " coincides with the last");
     }
   }
-  return Fitter(points, tolerance, curve_error, plane, axes).run();
+  return Fitter(points, tolerance, curve_error, plane, axes, progress).run();
 }
 
 }  // namespace ridgeline::path

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/base/progress.hpp"
 #include "core/path/motion.hpp"
 
 namespace ridgeline::path {
@@ -34,6 +35,7 @@ struct ArcFit {
 /// is not above curve_error; Error{NotConverged} when the points are too sparse for it.
 ArcFit fit_arcs(const std::vector<Eigen::Vector3d>& points, double tolerance, double curve_error,
                 ArcPlane plane = ArcPlane::XY,
-                const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
+                const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity(),
+                const Progress& progress = {});
 
 }  // namespace ridgeline::path

@@ -229,9 +229,11 @@ double chord_bound(const ClosedCurve& curve, double a, double b, double enough) 
 }
 
 // sqrt(kappa) ds = sqrt(|C' x C''| / |C'|) du, by the midpoint rule on parts of each piece.
-CurvatureTable curvature_table(const ClosedCurve& curve) {
+CurvatureTable curvature_table(const ClosedCurve& curve, const Progress& progress) {
   CurvatureTable table{.u = {curve.pieces.front().from}, .integral = {0}};
-  for (const CurvePiece& piece : curve.pieces) {
+  for (std::size_t i = 0; i < curve.pieces.size(); ++i) {
+    progress.step(i, curve.pieces.size(), "curvature");
+    const CurvePiece& piece = curve.pieces[i];
     const double length = piece.to - piece.from;
     const auto velocity = derivative(piece.b, length);
     const auto acceleration = derivative(velocity, length);

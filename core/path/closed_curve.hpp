@@ -42,6 +42,6 @@ struct CurvatureTable {
   std::vector<double> u;
   std::vector<double> integral;
 };
-CurvatureTable curvature_table(const ClosedCurve& curve);
+CurvatureTable curvature_table(const ClosedCurve& curve, const Progress& progress = {});
 
 }  // namespace ridgeline::path

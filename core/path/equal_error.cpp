@@ -143,7 +143,7 @@ Stretch cut(const ClosedCurve& curve, std::span<const double> at, std::span<cons
 
 Chords equal_error_chords(const ClosedCurve& curve, const std::vector<double>& breaks,
                           double tolerance, int limit, const Progress& progress) {
-  const CurvatureTable table = curvature_table(curve);
+  const CurvatureTable table = curvature_table(curve, progress.part(0, 0.5));
   const double needed = std::ceil(table.integral.back() / std::sqrt(8 * tolerance) - 1e-9);
   if (!(needed <= limit)) {
     throw Error(ErrorCode::ToleranceTooSmall,
@@ -170,9 +170,11 @@ Chords equal_error_chords(const ClosedCurve& curve, const std::vector<double>& b
   return chords;
 }
 
-double chord_error(const ClosedCurve& curve, const std::vector<double>& u) {
+double chord_error(const ClosedCurve& curve, const std::vector<double>& u,
+                   const Progress& progress) {
   double worst = 0;
   for (std::size_t i = 0; i < u.size(); ++i) {
+    progress.step(i, u.size(), "chords");
     const double b = i + 1 < u.size() ? u[i + 1] : curve.pieces.back().to;
     worst = std::max(worst, chord_bound(curve, u[i], b, worst));
   }

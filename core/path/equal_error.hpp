@@ -22,6 +22,7 @@ Chords equal_error_chords(const ClosedCurve& curve, const std::vector<double>& b
                           double tolerance, int limit, const Progress& progress = {});
 
 /// Certified bound of the true curve to the polyline through u (ascending, closed) [mm].
-double chord_error(const ClosedCurve& curve, const std::vector<double>& u);
+double chord_error(const ClosedCurve& curve, const std::vector<double>& u,
+                   const Progress& progress = {});
 
 }  // namespace ridgeline::path

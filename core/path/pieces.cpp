@@ -20,11 +20,13 @@ geometry::Spiral spiral_of(const ArcShape& arc) {
 
 }  // namespace
 
-std::vector<geometry::Piece> pieces_of(const Motion& motion, const Eigen::Vector3d& offset) {
+std::vector<geometry::Piece> pieces_of(const Motion& motion, const Eigen::Vector3d& offset,
+                                       const Progress& progress) {
   std::vector<geometry::Piece> pieces;
   pieces.reserve(motion.moves.size());
   Eigen::Vector3d from = motion.start;
   for (std::size_t i = 0; i < motion.moves.size(); ++i) {
+    progress.step(i, motion.moves.size(), "moves");
     const Move& move = motion.moves[i];
     geometry::Piece piece;
     piece.a = from + offset;

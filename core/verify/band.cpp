@@ -156,19 +156,25 @@ BandSection Band::at(double u) const {
   return section;
 }
 
-std::vector<BandSection> sections(const Band& band, int count) {
+std::vector<BandSection> sections(const Band& band, int count, const Progress& progress) {
   std::vector<BandSection> all;
   all.reserve(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) all.push_back(band.at(static_cast<double>(i) / count));
+  for (int i = 0; i < count; ++i) {
+    const double u = static_cast<double>(i) / count;
+    if (i % 64 == 0) progress.at(u, "width");
+    all.push_back(band.at(u));
+  }
   return all;
 }
 
-WidthRange width_range(const Band& band, const std::vector<BandSection>& sections) {
+WidthRange width_range(const Band& band, const std::vector<BandSection>& sections,
+                       const Progress& progress) {
   std::vector<double> widths;
   widths.reserve(sections.size());
   for (const BandSection& section : sections) widths.push_back(width(section));
   const double step = 1 / static_cast<double>(sections.size());
   const auto at = [&](double i) {
+    progress.at(0, "width");
     const double u = i * step;
     return width(band.at(u - std::floor(u)));
   };

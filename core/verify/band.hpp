@@ -50,7 +50,7 @@ inline double width(const BandSection& section) {
 }
 
 /// The band all round, at equal steps of u.
-std::vector<BandSection> sections(const Band& band, int count);
+std::vector<BandSection> sections(const Band& band, int count, const Progress& progress = {});
 
 /// Least and largest width over the whole edge, between the sections too (to 1e-9 mm where the
 /// width is continuous).
@@ -58,6 +58,7 @@ struct WidthRange {
   double min = 0, max = 0;
   double min_at = 0, max_at = 0;  ///< u
 };
-WidthRange width_range(const Band& band, const std::vector<BandSection>& sections);
+WidthRange width_range(const Band& band, const std::vector<BandSection>& sections,
+                       const Progress& progress = {});
 
 }  // namespace ridgeline::verify

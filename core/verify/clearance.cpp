@@ -23,6 +23,7 @@ using geometry::Trace;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Boxes looked at before the search stops and answers its proven bound instead: seconds of work.
 constexpr std::size_t most_boxes = 300'000;
+constexpr std::size_t boxes_between_looks = 256;
 /// How well the depth of a collision is known: it is refused anyway.
 constexpr double collision_relative = 0.2;
 /// Of the way of a bound to the best distance: a split that gains less was along the wrong side.
@@ -56,7 +57,7 @@ public:
   Search(const Solid& solid, const Trace& path, const Eigen::Vector3d& axis)
       : solid_(solid), path_(path), z_(axis), x_(axis.unitOrthogonal()), y_(z_.cross(x_)) {}
 
-  Clearance run(const std::vector<tool::Surface>& surfaces);
+  Clearance run(const std::vector<tool::Surface>& surfaces, const Progress& progress);
 
 private:
   Eigen::Vector3d offset(double height, double radius, double turn) const {
@@ -73,7 +74,7 @@ private:
   void push(Box box);
   void split(const Box& box);
   Eigen::Vector3d nearest_on(const tool::Surface& surface, const Eigen::Vector3d& p) const;
-  void polish(const tool::Surface& surface);
+  void polish(const tool::Surface& surface, const Progress& progress);
   double tolerance() const {
     const double relative = best_ < 0 ? collision_relative : clearance_relative;
     return std::max(clearance_tolerance, relative * std::abs(best_));
@@ -248,7 +249,7 @@ Eigen::Vector3d Search::nearest_on(const tool::Surface& surface, const Eigen::Ve
 /// The bound is coarse, the value is not: downhill from the best station. At each place of the path
 /// tool and material are projected onto each other in turn; along it the reach doubles while it
 /// pays.
-void Search::polish(const tool::Surface& surface) {
+void Search::polish(const tool::Surface& surface, const Progress& progress) {
   if (!(best_ > 0)) return;
   double index = static_cast<double>(best_at_.piece) + best_at_.t;
   Eigen::Vector3d off = offset(best_at_.height, best_at_.radius, best_at_.turn);
@@ -264,7 +265,10 @@ void Search::polish(const tool::Surface& surface) {
     }
     return here;
   };
-  const auto f = [&](double i) { return surface.ball - solid_.distance(centre(i) + settled(i)); };
+  const auto f = [&](double i) {
+    progress.at(1, "clearance");
+    return surface.ball - solid_.distance(centre(i) + settled(i));
+  };
   const double end = static_cast<double>(path_.pieces().size()) - 1e-9;
   for (double reach = 1; reach < 2 * end; reach *= 2) {
     const double low = std::max(0.0, index - reach);
@@ -279,7 +283,7 @@ void Search::polish(const tool::Surface& surface) {
   best_point_ = centre(index) + off;
 }
 
-Clearance Search::run(const std::vector<tool::Surface>& surfaces) {
+Clearance Search::run(const std::vector<tool::Surface>& surfaces, const Progress& progress) {
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     Box box;
     box.surface = k;
@@ -292,7 +296,12 @@ Clearance Search::run(const std::vector<tool::Surface>& surfaces) {
     }
   }
   double proven = infinity;
+  std::size_t next_look = 0;
   while (!queue_.empty()) {
+    if (looked_ >= next_look) {
+      progress.at(static_cast<double>(looked_) / most_boxes, "clearance");
+      next_look = looked_ + boxes_between_looks;
+    }
     const Box box = queue_.top();
     if (box.bound >= best_ - tolerance()) break;
     if (looked_ > most_boxes) {
@@ -302,15 +311,15 @@ Clearance Search::run(const std::vector<tool::Surface>& surfaces) {
     queue_.pop();
     split(box);
   }
-  polish(surfaces[best_surface_]);
+  polish(surfaces[best_surface_], progress);
   return {.value = std::min(best_, proven), .piece = best_at_.piece, .point = best_point_};
 }
 
 }  // namespace
 
 Clearance clearance(const Solid& solid, const Trace& path, const Eigen::Vector3d& axis,
-                    const std::vector<tool::Surface>& surfaces) {
-  return Search(solid, path, axis).run(surfaces);
+                    const std::vector<tool::Surface>& surfaces, const Progress& progress) {
+  return Search(solid, path, axis).run(surfaces, progress);
 }
 
 }  // namespace ridgeline::verify

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/base/progress.hpp"
 #include "core/geometry/solid.hpp"
 #include "core/geometry/trace.hpp"
 #include "core/tool/surface.hpp"
@@ -24,6 +25,7 @@ inline constexpr double clearance_relative = 2e-2;
 
 /// Needs a path and at least one surface. `axis`: unit, tip to spindle.
 Clearance clearance(const geometry::Solid& solid, const geometry::Trace& path,
-                    const Eigen::Vector3d& axis, const std::vector<tool::Surface>& surfaces);
+                    const Eigen::Vector3d& axis, const std::vector<tool::Surface>& surfaces,
+                    const Progress& progress = {});
 
 }  // namespace ridgeline::verify

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "core/base/error.hpp"
@@ -32,12 +33,13 @@ bool is_finite(const Move& move) {
          (!move.arc || (move.arc->centre.allFinite() && move.arc->axes.allFinite()));
 }
 
-void check(const Subject& subject, const Motion& motion) {
+void check(const Subject& subject, const Motion& motion, const Progress& progress) {
   const auto refuse = [](const std::string& message) { throw Error(ErrorCode::BadInput, message); };
   if (!(tool::cutting_radius(subject.tool) > 0)) refuse("the cutting radius must be above 0 mm");
   if (!(subject.width > 0)) refuse("the width to measure against must be above 0 mm");
   if (!motion.start.allFinite()) refuse("the start of the motion is not finite");
   for (std::size_t i = 0; i < motion.moves.size(); ++i) {
+    progress.step(i, motion.moves.size(), "moves");
     const Move& move = motion.moves[i];
     if (!is_finite(move)) refuse("move " + std::to_string(i) + " is not finite");
     if (move.kind != MoveKind::Rapid && !(move.feed > 0)) {
@@ -48,67 +50,74 @@ void check(const Subject& subject, const Motion& motion) {
 }
 
 template <typename Wanted>
-Trace trace_of(const std::vector<Piece>& pieces, const Motion& motion, const Wanted& wanted) {
+Trace trace_of(const std::vector<Piece>& pieces, const Motion& motion, const Wanted& wanted,
+               const Progress& progress) {
+  const Progress choice = progress.part(0, 0.5);
   std::vector<Piece> chosen;
-  for (const Piece& piece : pieces) {
-    if (wanted(motion.moves[piece.owner].kind)) chosen.push_back(piece);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    choice.step(i, pieces.size(), "moves");
+    const Piece& piece = pieces[i];
+    if (!wanted(motion.moves[piece.owner].kind)) continue;
+    if (chosen.empty()) chosen.reserve(pieces.size() - i);
+    chosen.push_back(piece);
   }
-  return Trace(std::move(chosen));
+  return Trace(std::move(chosen), progress.part(0.5, 1));
 }
 
-double cutting_time(const Motion& motion) {
-  double time = 0;
+void measure_way(const Motion& motion, const Progress& progress, Report& report) {
   Eigen::Vector3d from = motion.start;
-  for (const Move& move : motion.moves) {
-    if (move.kind != MoveKind::Rapid) time += path::length(from, move) / move.feed;
+  for (std::size_t i = 0; i < motion.moves.size(); ++i) {
+    progress.step(i, motion.moves.size(), "length");
+    const Move& move = motion.moves[i];
+    const double length = path::length(from, move);
+    report.path_length += length;
+    if (move.kind != MoveKind::Rapid) report.cutting_time += length / move.feed;
     from = move.to;
   }
-  return time;
-}
-
-double path_length(const Motion& motion) {
-  double length = 0;
-  Eigen::Vector3d from = motion.start;
-  for (const Move& move : motion.moves) {
-    length += path::length(from, move);
-    from = move.to;
-  }
-  return length;
 }
 
 /// Start of one loop of cut moves to the last half of it.
-double closing_error(const std::vector<Piece>& loop) {
-  std::vector<double> travelled = {0};
-  for (const Piece& piece : loop) {
-    travelled.push_back(travelled.back() + (piece.b - piece.a).norm());
+double closing_error(std::span<const Piece> loop, const Progress& progress) {
+  const Progress lengths = progress.part(0, 0.5), distances = progress.part(0.5, 1);
+  double length = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    lengths.step(i, loop.size(), "closing");
+    length += (loop[i].b - loop[i].a).norm();
   }
   double error = (loop.back().b - loop.front().a).norm();
+  double travelled = 0;
   for (std::size_t i = 0; i < loop.size(); ++i) {
-    if (travelled[i] < travelled.back() / 2) continue;
-    error = std::min(error, geometry::nearest(loop[i], loop.front().a).distance);
+    distances.step(i, loop.size(), "closing");
+    if (travelled >= length / 2) {
+      error = std::min(error, geometry::nearest(loop[i], loop.front().a).distance);
+    }
+    travelled += (loop[i].b - loop[i].a).norm();
   }
   return error;
 }
 
-double worst_closing_error(const std::vector<Piece>& pieces, const Motion& motion) {
+double worst_closing_error(const std::vector<Piece>& pieces, const Motion& motion,
+                           const Progress& progress) {
   double worst = 0;
-  std::vector<Piece> loop;
+  std::size_t first = 0;  // of the loop of cut moves
   for (std::size_t i = 0; i <= pieces.size(); ++i) {
-    if (i < pieces.size() && motion.moves[pieces[i].owner].kind == MoveKind::Cut) {
-      loop.push_back(pieces[i]);
-    } else if (!loop.empty()) {
-      worst = std::max(worst, closing_error(loop));
-      loop.clear();
+    progress.step(i, pieces.size() + 1, "closing");
+    if (i < pieces.size() && motion.moves[pieces[i].owner].kind == MoveKind::Cut) continue;
+    if (i > first) {
+      const std::span loop(pieces.data() + first, i - first);
+      worst = std::max(worst, closing_error(loop, Progress{.report = {}, .stop = progress.stop}));
     }
+    first = i + 1;
   }
   return worst;
 }
 
-void measure_widths(const Band& band, const std::vector<BandSection>& all, Report& report) {
+void measure_widths(const Band& band, const std::vector<BandSection>& all, const Progress& progress,
+                    Report& report) {
   if (std::none_of(all.begin(), all.end(), [](const BandSection& s) { return s.cut; })) {
     throw Error(ErrorCode::BadInput, "the motion never cuts the edge that it is measured against");
   }
-  const WidthRange range = width_range(band, all);
+  const WidthRange range = width_range(band, all, progress);
   report.width_min = range.min;
   report.width_max = range.max;
   report.width_min_at = range.min_at;
@@ -117,15 +126,16 @@ void measure_widths(const Band& band, const std::vector<BandSection>& all, Repor
 
 void measure_overcut(const Subject& subject, const Solid& solid, const Trace& feeds,
                      const Trace& rapids, const Band& band, const std::vector<BandSection>& all,
-                     Report& report) {
+                     const Progress& progress, Report& report) {
   const double D = tool::cutting_radius(subject.tool);
-  const Overcut found = overcut(subject.edge, solid, feeds, band, all, D);
+  const Overcut found = overcut(subject.edge, solid, feeds, band, all, D, progress.part(0, 0.8));
   if (found.depth > 0) {
     report.overcut = found.depth;
     report.overcut_at = Place{feeds.pieces()[found.piece].owner, found.centre};
   }
   if (rapids.empty()) return;
-  const Clearance ball = clearance(solid, rapids, subject.tool_axis, {tool::ball_of(subject.tool)});
+  const Clearance ball = clearance(solid, rapids, subject.tool_axis, {tool::ball_of(subject.tool)},
+                                   progress.part(0.8, 1));
   if (-ball.value > report.overcut) {
     report.overcut = -ball.value;
     report.overcut_at = Place{rapids.pieces()[ball.piece].owner, ball.point};
@@ -133,10 +143,12 @@ void measure_overcut(const Subject& subject, const Solid& solid, const Trace& fe
 }
 
 void measure_clearances(const Subject& subject, const Solid& solid, const Trace& all,
-                        const Trace& rapids, Report& report) {
+                        const Trace& rapids, const Progress& progress, Report& report) {
   // Higher than this above the ball centre nothing of the tool can reach the workpiece.
   double far = 0;
-  for (const Piece& piece : all.pieces()) {
+  for (std::size_t i = 0; i < all.pieces().size(); ++i) {
+    if (i % 1024 == 0) progress.at(0, "clearance");
+    const Piece& piece = all.pieces()[i];
     far = std::max({far, (piece.a - subject.workpiece.position).norm(),
                     (piece.b - subject.workpiece.position).norm()});
   }
@@ -147,12 +159,12 @@ void measure_clearances(const Subject& subject, const Solid& solid, const Trace&
     return Place{trace.pieces()[c.piece].owner, c.point};
   };
   if (!neck.empty()) {
-    const Clearance c = clearance(solid, all, subject.tool_axis, neck);
+    const Clearance c = clearance(solid, all, subject.tool_axis, neck, progress.part(0, 0.4));
     report.neck_clearance = c.value;
     report.neck_at = place(all, c);
   }
   if (!holder.empty()) {
-    const Clearance c = clearance(solid, all, subject.tool_axis, holder);
+    const Clearance c = clearance(solid, all, subject.tool_axis, holder, progress.part(0.4, 0.7));
     report.holder_clearance = c.value;
     report.holder_at = place(all, c);
   }
@@ -160,7 +172,7 @@ void measure_clearances(const Subject& subject, const Solid& solid, const Trace&
     std::vector<tool::Surface> whole = {tool::ball_of(subject.tool)};
     whole.insert(whole.end(), neck.begin(), neck.end());
     whole.insert(whole.end(), holder.begin(), holder.end());
-    const Clearance c = clearance(solid, rapids, subject.tool_axis, whole);
+    const Clearance c = clearance(solid, rapids, subject.tool_axis, whole, progress.part(0.7, 1));
     report.rapid_clearance = c.value;
     report.rapid_at = place(rapids, c);
   }
@@ -168,16 +180,18 @@ void measure_clearances(const Subject& subject, const Solid& solid, const Trace&
 
 }  // namespace
 
-Report measure(const Subject& subject, const Motion& motion) {
-  check(subject, motion);
+Report measure(const Subject& subject, const Motion& motion, const Progress& progress) {
+  check(subject, motion, progress.part(0, 0.05));
   const double D = tool::cutting_radius(subject.tool);
-  const std::vector<Piece> pieces =
-      path::pieces_of(motion, subject.control_to_centre * subject.tool_axis);
-  const Trace all(pieces);
-  const Trace feeds =
-      trace_of(pieces, motion, [](MoveKind kind) { return kind != MoveKind::Rapid; });
-  const Trace rapids =
-      trace_of(pieces, motion, [](MoveKind kind) { return kind == MoveKind::Rapid; });
+  const Trace all(path::pieces_of(motion, subject.control_to_centre * subject.tool_axis,
+                                  progress.part(0.05, 0.1)),
+                  progress.part(0.1, 0.15));
+  const Trace feeds = trace_of(
+      all.pieces(), motion, [](MoveKind kind) { return kind != MoveKind::Rapid; },
+      progress.part(0.15, 0.25));
+  const Trace rapids = trace_of(
+      all.pieces(), motion, [](MoveKind kind) { return kind == MoveKind::Rapid; },
+      progress.part(0.25, 0.3));
   if (feeds.empty()) {
     throw Error(ErrorCode::BadInput, "the motion has no feed move: it cuts nothing");
   }
@@ -186,14 +200,14 @@ Report measure(const Subject& subject, const Motion& motion) {
   const Band band(subject.edge, feeds, D, subject.width);
   const auto wanted = static_cast<int>(
       std::min<std::size_t>(most_sections, sections_per_move * feeds.pieces().size()));
-  const std::vector<BandSection> around = sections(band, std::max(fewest_sections, wanted));
-  measure_widths(band, around, report);
+  const std::vector<BandSection> around =
+      sections(band, std::max(fewest_sections, wanted), progress.part(0.3, 0.45));
+  measure_widths(band, around, progress.part(0.45, 0.5), report);
   const Solid solid(subject.workpiece);
-  measure_overcut(subject, solid, feeds, rapids, band, around, report);
-  measure_clearances(subject, solid, all, rapids, report);
-  report.closing_error = worst_closing_error(pieces, motion);
-  report.path_length = path_length(motion);
-  report.cutting_time = cutting_time(motion);
+  measure_overcut(subject, solid, feeds, rapids, band, around, progress.part(0.5, 0.75), report);
+  measure_clearances(subject, solid, all, rapids, progress.part(0.75, 0.9), report);
+  report.closing_error = worst_closing_error(all.pieces(), motion, progress.part(0.9, 0.95));
+  measure_way(motion, progress.part(0.95, 1), report);
   return report;
 }
 

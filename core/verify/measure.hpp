@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "core/base/progress.hpp"
 #include "core/geometry/workpiece.hpp"
 #include "core/path/motion.hpp"
 #include "core/tool/tool.hpp"
@@ -54,6 +55,6 @@ struct Report {
 
 /// Measures the polyline (and arcs) of a motion. Throws Error{BadInput} when the values are not
 /// finite, a feed move has no feed, or the motion never meets the edge.
-Report measure(const Subject& subject, const path::Motion& motion);
+Report measure(const Subject& subject, const path::Motion& motion, const Progress& progress = {});
 
 }  // namespace ridgeline::verify

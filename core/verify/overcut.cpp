@@ -25,6 +25,7 @@ constexpr double seam_doubt = 1e-3;  ///< a seam this near to being cut is measu
 constexpr double peak_worth = 1e-9;  ///< [mm]
 constexpr double golden_settled = 1e-9;
 constexpr double hidden = 1e-5;         ///< deeper than what is found is nothing by more [mm]
+constexpr int looked_at = 64;           ///< steps, and halvings, between two looks for a cancel
 constexpr int most_halvings = 500'000;  ///< then the bound itself is the depth
 
 /// The ridge as a closed polyline, to find the u of a point.
@@ -43,8 +44,9 @@ Trace ridge_trace(const Edge& edge, const std::vector<BandSection>& sections) {
 class Search {
 public:
   Search(const Edge& edge, const Solid& solid, const Trace& path, const Band& band,
-         const std::vector<BandSection>& sections, double D)
-      : edge_(edge),
+         const std::vector<BandSection>& sections, double D, const Progress& progress)
+      : progress_(progress),
+        edge_(edge),
         solid_(solid),
         path_(path),
         band_(band),
@@ -81,6 +83,7 @@ private:
   bool is_on_ridge(const Eigen::Vector3d& q) const;
   Trace other_seams() const;
 
+  const Progress& progress_;
   const Edge& edge_;
   const Solid& solid_;
   const Trace& path_;
@@ -104,7 +107,10 @@ bool Search::is_on_ridge(const Eigen::Vector3d& q) const {
 
 Trace Search::other_seams() const {
   std::vector<Piece> pieces;
-  for (const Piece& piece : solid_.seams().pieces()) {
+  const std::vector<Piece>& seams = solid_.seams().pieces();
+  for (std::size_t i = 0; i < seams.size(); ++i) {
+    if (i % looked_at == 0) progress_.at(0, "overcut");
+    const Piece& piece = seams[i];
     if (!(is_on_ridge(piece.a) && is_on_ridge(piece.b))) pieces.push_back(piece);
   }
   return Trace(pieces);
@@ -172,11 +178,15 @@ Eigen::Vector3d Search::centre(double index) const {
 void Search::walk() {
   steps_.push_back({0, 0, 0});
   depths_.push_back(depth(path_.pieces().front().a));
+  const Progress walking = progress_.part(0, 0.5);
   for (std::size_t i = 0; i < path_.pieces().size(); ++i) {
     const Piece& piece = path_.pieces()[i];
     const double speed = (piece.b - piece.a).norm() + piece.bend;  // no faster, by t
     double t = 0;
     while (t < 1) {
+      if (steps_.size() % looked_at == 0) {
+        walking.at(static_cast<double>(i) / static_cast<double>(path_.pieces().size()), "overcut");
+      }
       const double clear = geometry::distance(solid_.material(), at(piece, t)) - D_;
       const double next = std::min(1.0, t + std::max(margin_, clear - margin_) / speed);
       steps_.push_back({i, t, next, clear - margin_ > 0 && clear >= (next - t) * speed});
@@ -209,11 +219,14 @@ Search::Stretch Search::stretch(std::size_t step, double low, double high, doubl
 // Halves the stretch with the greatest bound until none can hide more than `hidden`.
 Extreme Search::certified(Extreme best) const {
   std::priority_queue<Stretch> open;
+  const Progress bounds = progress_.part(0.5, 0.7), halving = progress_.part(0.7, 1);
   for (std::size_t i = 1; i < steps_.size(); ++i) {
+    bounds.step(i, steps_.size(), "overcut");
     if (steps_[i].is_clear) continue;
     open.push(stretch(i, 0, 1, depths_[i - 1], depths_[i]));
   }
   for (int n = 0; !open.empty(); ++n) {
+    if (n % looked_at == 0) halving.at(static_cast<double>(n) / most_halvings, "overcut");
     const Stretch top = open.top();
     const double found = std::max(0.0, best.value);
     if (top.bound <= found + hidden) break;
@@ -243,8 +256,8 @@ Overcut Search::run() {
 }  // namespace
 
 Overcut overcut(const Edge& edge, const Solid& solid, const Trace& path, const Band& band,
-                const std::vector<BandSection>& sections, double D) {
-  return Search(edge, solid, path, band, sections, D).run();
+                const std::vector<BandSection>& sections, double D, const Progress& progress) {
+  return Search(edge, solid, path, band, sections, D, progress).run();
 }
 
 }  // namespace ridgeline::verify

@@ -27,6 +27,6 @@ struct Overcut {
 /// 1e-5 mm is left (what arcs that stand for seams miss, geometry::seam_sag, may add as much).
 Overcut overcut(const geometry::Edge& edge, const geometry::Solid& solid,
                 const geometry::Trace& path, const Band& band,
-                const std::vector<BandSection>& sections, double D);
+                const std::vector<BandSection>& sections, double D, const Progress& progress = {});
 
 }  // namespace ridgeline::verify
