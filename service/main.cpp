@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <iostream>
 #include <thread>
 
@@ -141,9 +143,7 @@ int serve(const Options& options) {
   return EXIT_SUCCESS;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   jobs::keep_freed_memory();
   Options options;
   options.server.instance = default_instance();
@@ -170,6 +170,17 @@ int main(int argc, char** argv) {
     return options.is_check ? check(options) : serve(options);
   } catch (const std::exception& error) {
     service::log::event(service::log::Level::Error, "failed", {{"message", error.what()}});
+    return EXIT_FAILURE;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {  // no memory even for the log
+    std::fprintf(stderr, "ridgelined: %s\n", error.what());
     return EXIT_FAILURE;
   }
 }
