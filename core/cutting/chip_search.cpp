@@ -60,7 +60,6 @@ std::optional<Later> later(const Scene& scene, const Edge& edge, const Before& b
   const double cos_q = edge.element->cos_q;
   const double circle = (r - (f + f * f / r + runout)) * sin_q;
   if (!(f < tip * circle)) return std::nullopt;
-  const double per_radian = scene.cut.samples / (2 * pi);
   const bool is_square = cutter.kind == CutterKind::Square;
   const double slope =
       cutter.lag == LagLaw::ConstantLead ? sin_q * scene.tan_helix : scene.tan_helix / (1 + cos_q);
@@ -70,9 +69,10 @@ std::optional<Later> later(const Scene& scene, const Edge& edge, const Before& b
       std::max(1 + cos_q * std::cos(2 * f / r) - sin_q * std::sin(2 * f / r), least_lowest);
   const double bend = is_square ? 0 : std::abs(scene.tan_helix) / (lowest * lowest);
   const double turn = f / circle;
-  return Later{per_radian * f * scene.cos_phi / (r * sin_q),
-               per_radian * lean * cos_q * scene.cos_phi, per_radian * lean * sin_q * scene.fd.z(),
-               per_radian * margin * turn * (turn + runout / r) * (1 + bend)};
+  return Later{scene.per_radian * f * scene.cos_phi / (r * sin_q),
+               scene.per_radian * lean * cos_q * scene.cos_phi,
+               scene.per_radian * lean * sin_q * scene.fd.z(),
+               scene.per_radian * margin * turn * (turn + runout / r) * (1 + bend)};
 }
 
 // How far the centre of the deflections has moved into the material since theta_o, at most.
@@ -312,7 +312,17 @@ std::vector<std::int32_t> sort_by_sample(std::vector<Found>& found, int samples)
 
 }  // namespace
 
-Scene scene(const Cut& cut, const Around& around) {
+Turn turn(const Cut& cut) {
+  Turn turn{elements(cut.cutter), {}, {}};
+  for (int i = 0; i < cut.samples; ++i) {
+    const double theta = 2 * pi * i / cut.samples;
+    turn.sin_theta.push_back(std::sin(theta));
+    turn.cos_theta.push_back(std::cos(theta));
+  }
+  return turn;
+}
+
+Scene scene(const Cut& cut, const Around& around, const Turn& turn) {
   Scene scene{.cut = cut,
               .around = around,
               .largest = around.reach,
@@ -321,9 +331,8 @@ Scene scene(const Cut& cut, const Around& around) {
               .fd = feed_direction(cut),
               .cos_phi = std::cos(cut.phi),
               .tan_helix = std::tan(cut.cutter.helix),
-              .elements = elements(cut.cutter),
-              .sin_theta = {},
-              .cos_theta = {},
+              .per_radian = cut.samples / (2 * pi),
+              .turn = turn,
               .boundaries = boundaries(cut.stock),
               .along_normal = {},
               .along_x = {},
@@ -335,11 +344,6 @@ Scene scene(const Cut& cut, const Around& around) {
   scene.along_y = extent(scene, Eigen::Vector2d::UnitY());
   for (const Boundary& boundary : scene.boundaries) {
     scene.along_normal.push_back(extent(scene, boundary.a.head<2>()));
-  }
-  for (int i = 0; i < cut.samples; ++i) {
-    const double theta = 2 * pi * i / cut.samples;
-    scene.sin_theta.push_back(std::sin(theta));
-    scene.cos_theta.push_back(std::cos(theta));
   }
   return scene;
 }
@@ -362,7 +366,8 @@ Before before(const Cut& cut, int tooth, int m) {
   const double ahead = tooth_angle(cut.cutter, tooth + m) - tooth_angle(cut.cutter, tooth);
   return {.ahead = ahead,
           .f = cut.feed * teeth(cut.cutter) * ahead / (2 * pi),
-          .r = tooth_radius(cut.cutter, tooth + m)};
+          .r = tooth_radius(cut.cutter, tooth + m),
+          .per_r = 1 / tooth_radius(cut.cutter, tooth + m)};
 }
 
 Candidates candidates(const Scene& scene, const std::vector<Edge>& edges, const Before& before) {

@@ -25,8 +25,8 @@ struct Scene {
   Eigen::Vector3d fd;
   double cos_phi = 1;
   double tan_helix = 0;
-  std::vector<Element> elements;
-  std::vector<double> sin_theta, cos_theta;  ///< of each sample
+  double per_radian = 0;  ///< samples
+  const Turn& turn;
   std::vector<Boundary> boundaries;
   std::vector<Extent> along_normal;  ///< of a plane among the boundaries
   Extent along_x, along_y;
@@ -65,15 +65,17 @@ struct Before {
   double ahead = 0;  ///< angle from this tooth
   double f = 0;      ///< feed since it was here [mm]
   double r = 0;
+  double per_r = 0;  ///< 1 / r
 };
 
-Scene scene(const Cut& cut, const Around& around);
+Turn turn(const Cut& cut);
+Scene scene(const Cut& cut, const Around& around, const Turn& turn);
 Edge edge_of(const Cut& cut, const Element& element, int tooth);
 Before before(const Cut& cut, int tooth, int m);
 
 inline Aim aim(const Scene& scene, const Edge& edge, std::int32_t sample) {
-  const double s = scene.sin_theta[static_cast<std::size_t>(sample)];
-  const double c = scene.cos_theta[static_cast<std::size_t>(sample)];
+  const double s = scene.turn.sin_theta[static_cast<std::size_t>(sample)];
+  const double c = scene.turn.cos_theta[static_cast<std::size_t>(sample)];
   return {.s = s * edge.cos_k + c * edge.sin_k, .c = c * edge.cos_k - s * edge.sin_k};
 }
 

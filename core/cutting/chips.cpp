@@ -18,8 +18,8 @@ double small_atan2(double y, double x) {
   const double u = y / x;
   const double w = u * u;
   const double w2 = w * w;
-  const double low = (1 - w / 3) + w2 * (1.0 / 5 - w / 7);
-  const double high = (1.0 / 9 - w / 11) + w2 * (1.0 / 13 - w / 15);
+  const double low = (1 - w * (1.0 / 3)) + w2 * (1.0 / 5 - w * (1.0 / 7));
+  const double high = (1.0 / 9 - w * (1.0 / 11)) + w2 * (1.0 / 13 - w * (1.0 / 15));
   return u * (low + w2 * w2 * high);
 }
 
@@ -52,11 +52,10 @@ Earlier earlier_at(const Scene& scene, const Edge& edge, const Aim& aim, std::in
   const double along = edge.r - earlier.ts;
   const double x = along * sin_q + across * aim.s;
   const double y = across * aim.c;
-  const double sin_q_o = std::sqrt(x * x + y * y) / before.r;
-  const double cos_q_o = (along * cos_q - f * scene.fd.z()) / before.r;
+  const double sin_q_o = std::sqrt(x * x + y * y) * before.per_r;
+  const double cos_q_o = (along * cos_q - f * scene.fd.z()) * before.per_r;
   const double psi_o = lag(scene.cut.cutter, scene.tan_helix, sin_q_o, cos_q_o, edge.element->z);
-  earlier.delay =
-      (before.ahead + edge.element->psi - psi_o - small_atan2(y, x)) * samples / (2 * pi);
+  earlier.delay = (before.ahead + edge.element->psi - psi_o - small_atan2(y, x)) * scene.per_radian;
 
   const double place = wrapped(sample - earlier.delay, samples);
   earlier.before = static_cast<std::int32_t>(place);
@@ -135,8 +134,8 @@ bool put_terms(const Scene& scene, const Eigen::Vector3d& P, std::int32_t sample
 ToothChips tooth_chips(const Scene& scene, int tooth, ToothChips out) {
   const Cut& cut = scene.cut;
   std::vector<Blade> blades;
-  blades.reserve(scene.elements.size());
-  for (const Element& element : scene.elements) blades.push_back(blade(cut, element, tooth));
+  blades.reserve(scene.turn.elements.size());
+  for (const Element& element : scene.turn.elements) blades.push_back(blade(cut, element, tooth));
   std::vector<Edge> edges;
   edges.reserve(blades.size());
   for (const Blade& one : blades) edges.push_back(one.edge);
@@ -172,10 +171,13 @@ ToothChips tooth_chips(const Scene& scene, int tooth, ToothChips out) {
 }  // namespace
 
 ChipTable chip_table(const Cut& cut, Around around, ChipTable spent) {
-  const Scene view = scene(cut, around);
+  const bool has_turn = spent.cut.samples == cut.samples && !spent.turn.elements.empty() &&
+                        spent.cut.cutter == cut.cutter;
+  if (!has_turn) spent.turn = turn(cut);
+  const Scene view = scene(cut, around, spent.turn);
   const int z = teeth(cut.cutter);
   const bool one_for_all = is_periodic(cut.cutter) && cut.samples % z == 0;
-  ChipTable table = std::move(spent);
+  ChipTable& table = spent;
   table.cut = cut;
   table.pitch_samples = one_for_all ? cut.samples / z : 0;
   table.curves.clear();
@@ -187,7 +189,7 @@ ChipTable chip_table(const Cut& cut, Around around, ChipTable spent) {
     table.teeth[k] = tooth_chips(view, static_cast<int>(k), std::move(table.teeth[k]));
   }
   table.around = std::move(around);
-  return table;
+  return spent;
 }
 
 }  // namespace ridgeline::cutting

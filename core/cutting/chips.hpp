@@ -60,6 +60,12 @@ struct Around {
   bool is_still = false;    ///< no deflection at all, as of a rigid tool: theta_o is not needed
 };
 
+/// What every table of one cutter and number of samples has.
+struct Turn {
+  std::vector<Element> elements;
+  std::vector<double> sin_theta, cos_theta;  ///< of each sample
+};
+
 /// Every chip that can be cut while the deflection stays within `around`. A periodic cutter needs
 /// one tooth only: tooth k at sample i is tooth 0 at sample i + k N / z.
 struct ChipTable {
@@ -68,6 +74,7 @@ struct ChipTable {
   int pitch_samples = 0;  ///< N / z when one tooth stands for all, else 0
   std::vector<ToothChips> teeth;
   std::vector<Curve> curves;  ///< of each term
+  Turn turn;
 };
 
 /// Builds the table: (6), (7), (11)..(13), (17), (22), directions of (14)..(16). `cut` is valid.

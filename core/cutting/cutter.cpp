@@ -36,15 +36,8 @@ double tooth_radius(const Cutter& cutter, int k) {
   return cutter.r + cutter.runout[static_cast<std::size_t>(k % teeth(cutter))];
 }
 
-// (12) in the form that holds at the tip: (1 - cos q) / sin q = sin q / (1 + cos q) = tan(q/2).
 double lag(const Cutter& cutter, double sin_q, double cos_q, double z) {
   return lag(cutter, std::tan(cutter.helix), sin_q, cos_q, z);
-}
-
-double lag(const Cutter& cutter, double tan_beta, double sin_q, double cos_q, double z) {
-  if (cutter.kind == CutterKind::Square) return z * tan_beta / cutter.r;
-  if (cutter.lag == LagLaw::ConstantLead) return (1 - cos_q) * tan_beta;
-  return sin_q / (1 + cos_q) * tan_beta;
 }
 
 namespace {

@@ -29,6 +29,8 @@ struct Cutter {
   double height = 0;         ///< square: axial depth of cut a_p that the elements cover [mm]
   LagLaw lag = LagLaw::Tangent;
   ChipWidth chip_width = ChipWidth::Chip;
+
+  bool operator==(const Cutter&) const = default;
 };
 
 /// z equal angles.
@@ -64,8 +66,13 @@ std::vector<Element> elements(const Cutter& cutter);
 /// square mill lags by height.
 double lag(const Cutter& cutter, double sin_q, double cos_q, double z);
 
-/// The same with tan(helix) known.
-double lag(const Cutter& cutter, double tan_beta, double sin_q, double cos_q, double z);
+/// The same with tan(helix) known. (12) in the form that holds at the tip:
+/// (1 - cos q) / sin q = sin q / (1 + cos q) = tan(q/2).
+inline double lag(const Cutter& cutter, double tan_beta, double sin_q, double cos_q, double z) {
+  if (cutter.kind == CutterKind::Square) return z * tan_beta / cutter.r;
+  if (cutter.lag == LagLaw::ConstantLead) return (1 - cos_q) * tan_beta;
+  return sin_q / (1 + cos_q) * tan_beta;
+}
 
 /// Throws Error{BadInput}: field, value, unit, limit.
 void validate(const Cutter& cutter);

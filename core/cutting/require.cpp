@@ -1,5 +1,6 @@
 #include "core/cutting/require.hpp"
 
+#include <limits>
 #include <sstream>
 
 namespace ridgeline::cutting {
@@ -19,7 +20,11 @@ void require_between(std::string_view field, double value, double least, double 
   if (value >= least && value <= most) return;
   std::ostringstream limit;
   limit.precision(9);
-  limit << least << " to " << most;
+  if (most < std::numeric_limits<double>::max()) {
+    limit << least << " to " << most;
+  } else {
+    limit << "at least " << least;
+  }
   if (!unit.empty()) limit << ' ' << unit;
   std::ostringstream message;
   message.precision(9);

@@ -7,3 +7,6 @@ set(HEADERS along.hpp beam.hpp boundary.hpp carve.hpp chip_force.hpp chip_search
 # std::complex products without the branch for NaN and infinity: G and F are finite.
 set_source_files_properties(cutting/response.cpp PROPERTIES COMPILE_OPTIONS
   $<$<CXX_COMPILER_ID:GNU>:-fcx-limited-range>)
+# Square roots as one instruction: nothing here reads errno.
+set_source_files_properties(cutting/chips.cpp cutting/chip_search.cpp PROPERTIES COMPILE_OPTIONS
+  -fno-math-errno)

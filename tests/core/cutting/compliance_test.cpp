@@ -7,12 +7,29 @@
 
 #include "core/base/error.hpp"
 #include "core/cutting/beam.hpp"
+#include "core/cutting/iterate.hpp"
 #include "core/cutting/modal_fit.hpp"
+#include "tests/core/cutting/oracle_case.hpp"
 
 namespace ridgeline::cutting {
 namespace {
 
 using std::numbers::pi;
+
+// A limit with no other end says so.
+TEST(LowPass, WhatWouldCutTheResonanceIsRefusedWithTheLeastAllowed) {
+  const nlohmann::json file = oracle::file("01-ball-down-milling-1-groove.json");
+  IterateOptions options;
+  options.kappa = 0.01;
+  try {
+    iterate(oracle::cut(file["case"]), oracle::compliance(file["case"]), 100, options);
+    FAIL() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::BadInput);
+    EXPECT_EQ(error.details().limit.find("at least "), 0U) << error.details().limit;
+    EXPECT_EQ(std::string(error.what()).find("e+308"), std::string::npos) << error.what();
+  }
+}
 
 // Euler-Bernoulli cantilever of one radius: k = 3 E I / L^3, f1 = 1.8751^2 / (2 pi L^2) sqrt(E I /
 // (rho A)); the first mode has 1 / 0.9707 of the static stiffness (4 / 1.8751^4 of the compliance).
