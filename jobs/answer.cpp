@@ -48,7 +48,7 @@ const Kind& kind_of(const nlohmann::json& document) {
 
 Answer run(std::string_view job, std::string_view format, const Definitions& definitions,
            const Progress& progress) {
-  const nlohmann::json document = parse(job);
+  const nlohmann::json document = parse(job, progress);
   const Kind& kind = kind_of(document);
   if (std::ranges::find(kind.formats, format) == kind.formats.end()) {
     refuse({.code = ErrorCode::Unsupported,

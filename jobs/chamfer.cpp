@@ -175,7 +175,8 @@ std::string text_of(const ChamferJob& job, Solved solved, const nlohmann::json& 
     return nc::write_cl(std::move(solved.program), nc::cl_arc_tolerance, progress);
   if (format == "csv") return nc::write_csv(solved.rounded, progress);
   if (format == "macro") return chamfer_macro(job);
-  if (format == "svg") return chamfer_drawing(job.job, solved.subject.edge, solved.result);
+  if (format == "svg")
+    return chamfer_drawing(job.job, solved.subject.edge, solved.result, progress);
   if (format == "html") {
     return chamfer_page(job, solved.result, solved.rounded, solved.subject, document, progress);
   }

@@ -49,10 +49,10 @@ macro::CycleProgram read_program(const Value& value) {
   return program;
 }
 
-std::string program_text(const macro::Cycle& cycle, const macro::CycleProgram& program,
-                         const Progress& progress) {
+std::string program_text(const macro::Cycle& cycle, const macro::CycleResult& solved,
+                         const macro::CycleProgram& program, const Progress& progress) {
   try {
-    return macro::cycle_program(cycle, program, progress);
+    return macro::cycle_program(cycle, solved, program, progress);
   } catch (const Error& error) {
     rethrow_at_params(error);
   }
@@ -84,7 +84,7 @@ Answer cycle(const Request& request) {
   if (request.format == "json") {
     answer.arrays.push_back(macro_moves_array("/motion", result.motion, answer.document, rest));
   }
-  if (request.format == "nc") answer.text = program_text(cycle, program, rest);
+  if (request.format == "nc") answer.text = program_text(cycle, result, program, rest);
   if (request.format == "csv") answer.text = macro::csv_text(result.motion, rest);
   if (request.format == "svg")
     answer.text = macro_drawing(result.motion, "Motion of a cycle", rest);

@@ -177,7 +177,7 @@ void draw_table(Svg& svg, const Vector2d& at, const chamfer::Job& job, const geo
 }  // namespace
 
 std::string chamfer_drawing(const chamfer::Job& job, const geometry::Edge& edge,
-                            const chamfer::Result& result) {
+                            const chamfer::Result& result, const Progress& progress) {
   const auto& axes = edge.frame.axes;
   const Vector3d origin = edge.frame.origin;
   const Sheet across{.origin = origin, .right = axes.col(0), .up = axes.col(2)};
@@ -187,14 +187,17 @@ std::string chamfer_drawing(const chamfer::Job& job, const geometry::Edge& edge,
   const double half = 1.12 * extent(job.workpiece) + std::abs(f) / 2;
 
   Svg svg(1060, 760, fmt::format("Chamfer of hole {} in {}", job.hole, job.workpiece.name));
+  progress.at(0, "drawing");
   svg.text({20, 24}, "Section across the bore axis A1, through A2", "title");
   const View across_view = view_of({-f / 2, 0}, half, {20, 34}, {380, 394});
   draw_part(svg, across_view, across, job, result);
   draw_axes(svg, across_view, across, job, f);
 
+  progress.at(0.3, "drawing");
   svg.text({410, 24}, "Section along A1, through A2", "title");
   draw_part(svg, view_of({0, 0}, half, {410, 34}, {770, 394}), along, job, result);
 
+  progress.at(0.6, "drawing");
   svg.text({20, 420}, "Seen along A2: ridge and tool centre", "title");
   const Vector2d reach = geometry::half_extents(edge.profile);
   const View above_view = view_of(above.in(origin), 1.25 * reach.maxCoeff(), {20, 432}, {380, 740});
@@ -205,6 +208,7 @@ std::string chamfer_drawing(const chamfer::Job& job, const geometry::Edge& edge,
   svg.text(on_sheet(above_view, above.in(result.targets.front())) + Vector2d(8, 4), "start",
            "small");
 
+  progress.at(0.8, "drawing");
   draw_detail(svg, {410, 406}, {740, 740}, job, edge, result);
   draw_table(svg, {785, 60}, job, edge, f);
   return std::move(svg).finish();

@@ -11,6 +11,6 @@ namespace ridgeline::jobs {
 /// ridge line, the tool and its path, and the section at the start of the loop. SVG text; equal
 /// input gives equal text.
 std::string chamfer_drawing(const chamfer::Job& job, const geometry::Edge& edge,
-                            const chamfer::Result& result);
+                            const chamfer::Result& result, const Progress& progress);
 
 }  // namespace ridgeline::jobs

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -128,15 +130,41 @@ private:
   std::vector<Level> levels_;
 };
 
+/// The characters of a text, which look for a cancel as they are read.
+class Reader {
+public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  Reader(std::string_view text, std::size_t at, const Progress& progress)
+      : text_(text), at_(at), progress_(&progress) {}
+
+  reference operator*() const { return text_[at_]; }
+  Reader& operator++() {
+    constexpr std::size_t between_looks = 1 << 20;
+    if (++at_ % between_looks == 0) progress_->at(0, "parsing");
+    return *this;
+  }
+  friend bool operator==(const Reader& a, const Reader& b) { return a.at_ == b.at_; }
+
+private:
+  std::string_view text_;
+  std::size_t at_;
+  const Progress* progress_;
+};
+
 }  // namespace
 
-nlohmann::json parse(std::string_view text) {
+nlohmann::json parse(std::string_view text, const Progress& progress) {
   if (text.size() > max_document_bytes) {
     refuse({.value = std::to_string(text.size()) + " bytes",
             .limit = "at most " + std::to_string(max_document_bytes) + " bytes"});
   }
   Builder builder(text);
-  Json::sax_parse(text.begin(), text.end(), &builder);
+  Json::sax_parse(Reader(text, 0, progress), Reader(text, text.size(), progress), &builder);
   return builder.take();
 }
 

@@ -116,7 +116,7 @@ private:
   geometry::Edge edge_;
   double start_u_;
   std::vector<double> widths_;
-  std::vector<std::vector<CutPoint>> loops_;  ///< of each pass, in ascending u
+  std::vector<std::vector<CutPoint>> loops_;  ///< in ascending u; a spring pass has the last again
   double sampling_error_ = 0;                 ///< of the loops [mm]
   std::vector<CutPoint> borders_;
   Result result_;
@@ -218,11 +218,12 @@ Way Solver::way_along(const Route& route, const geometry::Solid& solid,
       is_climb(loops_.back(), route.tool_axis, job_.tool.spindle, progress.part(0, 0.1));
   const bool reversed = climbs != (job_.direction == Direction::Climb);
   std::vector<Round> rounds;
-  const double each = 0.6 / static_cast<double>(loops_.size());
-  for (std::size_t i = 0; i < loops_.size(); ++i) {
+  const double each = 0.6 / static_cast<double>(widths_.size());
+  for (std::size_t i = 0; i < widths_.size(); ++i) {
     const double done = 0.1 + each * static_cast<double>(i);
-    rounds.push_back(oriented(loops_[i], reversed, widths_[i], route.tool_axis,
-                              progress.part(done, done + each)));
+    const std::vector<CutPoint>& loop = loops_[std::min(i, loops_.size() - 1)];
+    rounds.push_back(
+        oriented(loop, reversed, widths_[i], route.tool_axis, progress.part(done, done + each)));
   }
   const Room room(solid, job_.tool, route.tool_axis);
   MotionPlan motion = plan(job_, edge_, route, room, rounds, borders_, progress.part(0.7, 1));
@@ -289,10 +290,7 @@ Result Solver::run() {
     const double done = each * static_cast<double>(i);
     loops_.push_back(sampled(widths_[i], points.part(done, done + each)));
   }
-  if (job_.spring_pass) {
-    widths_.push_back(job_.width);
-    loops_.push_back(loops_.back());
-  }
+  if (job_.spring_pass) widths_.push_back(job_.width);
   borders_ = borders_of(edge_, chamfer(job_.width));
   const Progress rest = progress_.part(0.7, 1);
   const std::vector<Neighbour> near = neighbours(job_, borders_, job_.width, rest.part(0, 0.1));

@@ -41,10 +41,13 @@ bool is_half_round(const Cycle& cycle) {
 }
 
 std::vector<CyclePoint> cycle_points(const Cycle& cycle, const std::vector<Station>& stations,
-                                     const std::vector<double>& passes) {
+                                     const std::vector<double>& passes, const Progress& progress) {
+  const std::vector<double> along_edge = point_places(cycle, passes);
   std::vector<CyclePoint> points;
-  for (const double along : point_places(cycle, passes)) {
+  points.reserve(along_edge.size() * stations.size());
+  for (const double along : along_edge) {
     for (const Station& station : stations) {
+      if (points.size() % 1024 == 0) progress.at(0, "cycle");
       CyclePoint point;
       point.along = along;
       point.station = station;
@@ -174,7 +177,7 @@ CycleResult solve(const Cycle& cycle, const Progress& progress) {
     }
     result.helix = std::move(chosen);
   } else if (!is_half_round(cycle)) {
-    result.points = cycle_points(cycle, result.stations, result.passes);
+    result.points = cycle_points(cycle, result.stations, result.passes, progress);
   }
   warn_of_rest(cycle, result);
   result.motion = cycle_motion(cycle, result, progress);

@@ -76,9 +76,12 @@ bool is_complex(const Cycle& cycle) {
 
 }  // namespace
 
-std::string cycle_program(const Cycle& cycle, const CycleProgram& options,
-                          const Progress& progress) {
-  const CycleResult solved = solve(cycle, progress);  // what cannot be cut is refused here too
+std::string cycle_program(const Cycle& cycle, const CycleProgram& options) {
+  return cycle_program(cycle, solve(cycle), options, {});  // what cannot be cut is refused
+}
+
+std::string cycle_program(const Cycle& cycle, const CycleResult& solved,
+                          const CycleProgram& options, const Progress& progress) {
   if (is_complex(cycle) && !cycle.outline) {
     ErrorDetails details;
     details.field = "outline";

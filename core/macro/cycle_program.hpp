@@ -24,7 +24,9 @@ struct CycleProgram {
 /// A parametric program: the cycle's numbers stand only where they are set (or in the call in the
 /// head of a macro). Throws as solve(); Error{BadInput} (field "outline") for a complex family
 /// without outline; Error{Unsupported} for a LinuxCNC macro.
-std::string cycle_program(const Cycle& cycle, const CycleProgram& options = {},
-                          const Progress& progress = {});
+std::string cycle_program(const Cycle& cycle, const CycleProgram& options = {});
+/// The same of a cycle that is solved already.
+std::string cycle_program(const Cycle& cycle, const CycleResult& solved,
+                          const CycleProgram& options, const Progress& progress);
 
 }  // namespace ridgeline::macro

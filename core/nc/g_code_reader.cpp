@@ -24,6 +24,7 @@ public:
 
   Reading run(const Progress& progress) {
     const std::size_t size = rest_.size();
+    tracer_.reserve(static_cast<std::size_t>(std::ranges::count(rest_, '\n')) + 1);
     while (!rest_.empty() && !has_ended_) {
       if (number_ % 1024 == 0) progress.at(read_share(rest_, size), "reading");
       const std::size_t end = std::min(rest_.find('\n'), rest_.size());

@@ -21,6 +21,7 @@ public:
 
   Reading run(const Progress& progress) {
     const std::size_t size = rest_.size();
+    tracer_.reserve(static_cast<std::size_t>(std::ranges::count(rest_, '\n')) + 1);
     for (int blocks = 0; !rest_.empty() && !has_ended_; ++blocks) {
       if (blocks % 1024 == 0) progress.at(read_share(rest_, size), "reading");
       block();

@@ -60,6 +60,11 @@ void Spot::unsupported(const std::string& why) const {
               {place, word, "", std::nullopt, std::nullopt});
 }
 
+void Tracer::reserve(std::size_t lines) {
+  reading_.motion.moves.reserve(lines);
+  reading_.lines.reserve(lines);
+}
+
 Tracer::Tracer(const ReadOptions& options) {
   if (!options.start) return;
   for (std::size_t n = 0; n < 3; ++n) {

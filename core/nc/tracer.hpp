@@ -43,6 +43,9 @@ public:
 
   explicit Tracer(const ReadOptions& options);
 
+  /// Room for the moves of so many lines: none is copied as they grow in number.
+  void reserve(std::size_t lines);
+
   bool is_known(std::size_t axis) const { return at_[axis].has_value(); }
   /// Where an axis is; an error of `spot` when that is not known.
   Nano at(std::size_t axis, const Spot& spot) const;

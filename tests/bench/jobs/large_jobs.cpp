@@ -73,6 +73,31 @@ Json cycle() {
             {"feed", 1600}}}};
 }
 
+Json predicted(const Json& along, const Json& also) {
+  Json job = {
+      {"job", "predict"},
+      {"along", along},
+      {"material",
+       {{"name", "aluminium"}, {"Ktc", 796.1}, {"Krc", 168.8}, {"Kte", 27.7}, {"Kre", 30.8}}},
+      {"dynamics", {{"modes", {{2200, 0.03, 4000}}}}}};
+  job.update(also);
+  return job;
+}
+
+/// Ball in a slope, a groove beside it.
+Json engagement(const Json& also) {
+  Json job = Json::parse(R"({
+    "job": "predict",
+    "case": {
+      "tool": {"kind": "ball", "r": 6, "z": 2, "helix_deg": 30, "nq": 256},
+      "N": 1024, "feed_per_tooth": 0.2,
+      "coef": {"Ktc": 796.1, "Krc": 168.8, "Kte": 27.7, "Kre": 30.8},
+      "engagement": {"normal": [-1, 0, 1], "c": 0.23, "grooves": [[-0.34648, 0, -0.34648]]},
+      "modes_x": [[1100, 0.03, 2000]], "modes_y": [[1100, 0.03, 2000]]}})");
+  job.update(also);
+  return job;
+}
+
 std::string text_of(const std::string& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -105,6 +130,15 @@ std::vector<LargeJob> large_jobs() {
   for (const char* format : {"json", "nc", "csv", "svg"}) {
     jobs.push_back({"cycle of 150,000 lines", cycle(), format});
   }
+  const Json cut = edge(1, {{"points", 200}, {"spindle_speed", 8000}});
+  jobs.push_back({"predict 200 points", predicted(cut, Json::object())});
+  jobs.push_back({"predict 200 points", predicted(cut, {{"correct", true}}), "nc"});
+  const Json few = edge(1, {{"points", 12}, {"spindle_speed", 8000}});
+  jobs.push_back({"predict 12 points in time", predicted(few, {{"method", "time_domain"}})});
+  jobs.push_back({"predict one engagement in time",
+                  engagement({{"speed_rpm", 9000}, {"method", "time_domain"}})});
+  jobs.push_back({"predict 57 speeds",
+                  engagement({{"speeds_rpm", {{"from", 2000}, {"to", 16000}, {"step", 250}}}})});
   for (const char* format : {"json", "svg", "html"}) {
     jobs.push_back({"units of a cross tube", units("own_cross_tube.step"), format});
   }
