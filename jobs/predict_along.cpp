@@ -138,17 +138,6 @@ AlongJob read_along(Object& job, const AlongSource& source, const Definitions& d
   return out;
 }
 
-Progress part_of(const Progress& progress, double from, double to) {
-  Progress part;
-  part.stop = progress.stop;
-  if (progress.report) {
-    part.report = [&progress, from, to](double fraction, std::string_view stage) {
-      progress.report(from + fraction * (to - from), stage);
-    };
-  }
-  return part;
-}
-
 void choose_tests(AlongJob& job, std::size_t stations) {
   if (job.options.stability_every < 1) {
     job.options.stability_every = static_cast<int>((stations + most_tests - 1) / most_tests);
@@ -196,10 +185,10 @@ AlongResult run_along(AlongJob job, const std::vector<cutting::Station>& station
   const Clock::time_point begin = Clock::now();
   AlongResult out;
   const double half = job.correct ? 0.5 : 1;
-  out.before = predicted(job, stations, part_of(progress, 0, half));
+  out.before = predicted(job, stations, progress.part(0, half));
   if (job.correct) {
     refuse_chatter(stations, out.before, job.course.cutter.r);
-    out.after = corrected(job, stations, *job.correct, part_of(progress, half, 1));
+    out.after = corrected(job, stations, *job.correct, progress.part(half, 1));
   }
   out.solve_seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   return out;

@@ -71,9 +71,6 @@ std::vector<cutting::StationError> corrected(AlongJob job,
 void refuse_chatter(const std::vector<cutting::Station>& stations,
                     const std::vector<cutting::StationError>& errors, double radius);
 
-/// Reports this part of a longer work: 0 as `from`, 1 as `to`.
-Progress part_of(const Progress& progress, double from, double to);
-
 /// Along a chamfer job.
 Answer predict_chamfer(Object& job, const Value& along, const Request& request);
 

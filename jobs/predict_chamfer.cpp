@@ -149,13 +149,12 @@ PredictedPass finishing_pass(ChamferPath path, const AlongJob& along, const Prog
   AlongJob as_it_is = along;
   as_it_is.correct.reset();
   PredictedPass pass{std::move(path), {}};
-  pass.result =
-      run_along(as_it_is, pass.path.stations, part_of(progress, 0, along.correct ? 0.5 : 1));
+  pass.result = run_along(as_it_is, pass.path.stations, progress.part(0, along.correct ? 0.5 : 1));
   if (!along.correct) return pass;
   refuse_chatter(pass.path.stations, pass.result.before, along.course.cutter.r);
   cutting::CorrectOptions limits = *along.correct;
   limits.only_overcut = true;
-  pass.result.after = corrected(along, pass.path.stations, limits, part_of(progress, 0.5, 1));
+  pass.result.after = corrected(along, pass.path.stations, limits, progress.part(0.5, 1));
   return pass;
 }
 
@@ -166,13 +165,12 @@ PredictedPass spring_pass(const ChamferPath& path, const AlongJob& along, const 
   as_it_is.correct.reset();
   const double radius = along.course.cutter.r;
   PredictedPass pass{over(path, finish.before, radius), {}};
-  pass.result =
-      run_along(as_it_is, pass.path.stations, part_of(progress, 0, along.correct ? 0.5 : 1));
+  pass.result = run_along(as_it_is, pass.path.stations, progress.part(0, along.correct ? 0.5 : 1));
   keep_finish(finish.before, pass.result.before);
   if (!along.correct) return pass;
   refuse_chatter(pass.path.stations, pass.result.before, radius);
   pass.result.after = corrected(along, over(path, finish.after, radius).stations, *along.correct,
-                                part_of(progress, 0.5, 1));
+                                progress.part(0.5, 1));
   keep_finish(finish.after, pass.result.after);
   return pass;
 }
@@ -213,9 +211,10 @@ nc::Program corrected_program(const ChamferJob& job, const ChamferPath& path,
   return program;
 }
 
-void refuse_collisions(const ChamferJob& job, const nc::Program& program) {
+void refuse_collisions(const ChamferJob& job, const nc::Program& program,
+                       const Progress& progress) {
   const verify::Subject subject = subject_of(job, program.tool_axis);
-  const verify::Report report = verify::measure(subject, nc::rounded(program));
+  const verify::Report report = verify::measure(subject, nc::rounded(program, progress), progress);
   for (const Failure& failure : failures(job, subject, report)) {
     const ErrorCode code = failure.error.code();
     const bool is_cut = is_width(failure) || code == ErrorCode::ToolTooLarge;  // meant to differ
@@ -243,7 +242,7 @@ Answer predict_chamfer(Object& job, const Value& along, const Request& request) 
     chamfer_job.job.arcs = false;
     read.warnings.emplace_back("the path is predicted, and corrected, as straight blocks");
   }
-  const chamfer::Result solved = chamfer::solve(chamfer_job.job, part_of(request.progress, 0, 0.1));
+  const chamfer::Result solved = chamfer::solve(chamfer_job.job, request.progress.part(0, 0.1));
   read.course.tool_axis = solved.tool_axis;
   const auto pass_of = [&](Pass pass) {
     return path_of(chamfer_job, solved, pass, read.S(), read.course.cutter);
@@ -252,15 +251,13 @@ Answer predict_chamfer(Object& job, const Value& along, const Request& request) 
   std::optional<PredictedPass> finish;
   AlongResult result;
   if (chamfer_job.job.spring_pass) {
-    finish =
-        finishing_pass(pass_of(Pass::BeforeSpring), read, part_of(request.progress, 0.1, 0.55));
-    PredictedPass last =
-        spring_pass(path, read, finish->result, part_of(request.progress, 0.55, 1));
+    finish = finishing_pass(pass_of(Pass::BeforeSpring), read, request.progress.part(0.1, 0.55));
+    PredictedPass last = spring_pass(path, read, finish->result, request.progress.part(0.55, 1));
     path = std::move(last.path);
     result = std::move(last.result);
     result.solve_seconds += finish->result.solve_seconds;
   } else {
-    result = run_along(read, path.stations, part_of(request.progress, 0.1, 1));
+    result = run_along(read, path.stations, request.progress.part(0.1, 1));
   }
   PredictedPath predicted;
   predicted.kind = "chamfer";
@@ -280,7 +277,7 @@ Answer predict_chamfer(Object& job, const Value& along, const Request& request) 
   if (read.correct) {
     predicted.width_after = widths(path, predicted.result.after);
     program = corrected_program(chamfer_job, path, predicted, finish);
-    refuse_collisions(chamfer_job, *program);
+    refuse_collisions(chamfer_job, *program, request.progress.part(1, 1));
   }
   Answer answer = path_answer(read, predicted);
   if (request.format == "csv") answer.text = path_csv(predicted);
@@ -290,7 +287,7 @@ Answer predict_chamfer(Object& job, const Value& along, const Request& request) 
         read, predicted, answer.document,
         chamfer_scene(chamfer_job, path.result, subject_of(chamfer_job, path.result.tool_axis)));
   }
-  if (request.format == "nc") answer.text = nc::write(program.value());
+  if (request.format == "nc") answer.text = nc::write(program.value(), request.progress.part(1, 1));
   return answer;
 }
 

@@ -117,7 +117,7 @@ std::string csv_of(const cutting::Prediction& p) {
   for (std::size_t i = 0; i < p.F.size(); ++i) {
     out += text(360.0 * static_cast<double>(i) / N);
     for (const double number : {p.F[i].x(), p.F[i].y(), p.F[i].z(), p.D[i].x(), p.D[i].y()}) {
-      out += "," + text(number);
+      out += "," + text(number + 0.0);  // no -0
     }
     out += "\n";
   }

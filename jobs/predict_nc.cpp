@@ -114,7 +114,7 @@ Answer predict_nc(Object& job, const Value& along, const Request& request) {
   if (const std::optional<Value> normal = object.optional("normal")) {
     work.normal = [n = normal->direction()](const Vector3d&) { return n; };
   }
-  const nc::Reading reading = nc::read(program);
+  const nc::Reading reading = nc::read(program, {}, request.progress.part(0, 0));
   work.program = program_of(reading, number);
   if (reading.tool_axis) work.tool_axis = reading.tool_axis->normalized();
   if (const std::optional<Value> given = object.optional("tool_axis")) {
@@ -129,6 +129,7 @@ Answer predict_nc(Object& job, const Value& along, const Request& request) {
   if (!(work.tool_axis.z() > most_tilt)) {
     refuse({.code = ErrorCode::Unsupported,
             .field = "/along/program",
+            .value = "an axis with Z " + text(work.tool_axis.z()),
             .limit = "a tool that comes from above: the stock is a height map"});
   }
   work.motion = reading.motion;
@@ -161,7 +162,7 @@ Answer predict_cycle(Object& job, const Value& along, const Request& request) {
             .value = text(cycle.r) + " mm",
             .limit = "the tool's radius " + text(radius) + " mm and D/2: a ball"});
   }
-  const macro::CycleResult result = macro::solve(cycle, part_of(request.progress, 0, 0.05));
+  const macro::CycleResult result = macro::solve(cycle, request.progress.part(0, 0.05));
   if (result.points.empty()) {
     refuse({.code = ErrorCode::Unsupported,
             .field = "/along/family",

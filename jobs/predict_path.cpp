@@ -237,7 +237,9 @@ std::string path_csv(const PredictedPath& path) {
   if (!path.finish.empty()) out += ",finish_shift_x_mm,finish_shift_y_mm,finish_shift_z_mm";
   const Points shift = shifts_of(path, path.result.after);
   const Points finish_shift = shifts_of(path, path.finish);
-  const auto cell = [&out](double value) { out += std::isnan(value) ? "," : "," + text(value); };
+  const auto cell = [&out](double value) {  // + 0: no -0
+    out += std::isnan(value) ? "," : "," + text(value + 0.0);
+  };
   for (std::size_t i = 0; i < path.stations.size(); ++i) {
     const StationError& row = path.result.before[i];
     out += "\n" + text(way[i]);

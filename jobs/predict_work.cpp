@@ -212,12 +212,12 @@ AlongResult run(AlongJob& job, const HeightMap& stock, const std::vector<Place>&
   const std::vector<Station> stations = stations_of(places);
   choose_tests(job, stations.size());
   AlongResult out;
-  out.before = follow(job, stock, places, part_of(progress, 0, job.correct ? 0.4 : 1),
+  out.before = follow(job, stock, places, progress.part(0, job.correct ? 0.4 : 1),
                       [](cutting::Follower& f, const Station& s) { return f.at(s); });
   if (job.correct) {
     refuse_chatter(stations, out.before, job.course.cutter.r);
     out.after = follow(
-        job, stock, places, part_of(progress, 0.4, 1),
+        job, stock, places, progress.part(0.4, 1),
         [&](cutting::Follower& f, const Station& s) { return f.corrected_at(s, *job.correct); });
     refuse_chatter(stations, out.after, job.course.cutter.r);
   }
@@ -298,7 +298,7 @@ Answer predict_work(Object& job, Object& along, WorkPath work, const ResolvedToo
   }
 
   read.course.tool_axis = work.tool_axis;
-  work.motion = path::linearised(work.motion, arc_tolerance);
+  work.motion = path::linearised(work.motion, arc_tolerance, request.progress.part(0, 0));
   const Vector3d to_centre =
       control == Control::Tip ? Vector3d(radius * work.tool_axis) : Vector3d(Vector3d::Zero());
   const double teeth_per_second = read.S() * cutting::teeth(read.course.cutter);
@@ -327,7 +327,7 @@ Answer predict_work(Object& job, Object& along, WorkPath work, const ResolvedToo
     program.motion = corrected_motion(work, places, path.result.after, to_centre);
     program.tool_axis = work.tool_axis;
     program.comments.emplace_back("CORRECTED FOR TOOL DEFLECTION");
-    answer.text = nc::write(program);
+    answer.text = nc::write(program, request.progress.part(1, 1));
   }
   return answer;
 }

@@ -139,6 +139,7 @@ TEST(PredictChamfer, DrawsAndLists) {
   const Answer list = answer(job.dump(), "csv", NoDefinitions());
   EXPECT_EQ(std::count(list.text.begin(), list.text.end(), '\n'), 13);
   EXPECT_EQ(list.text.find("nan"), std::string::npos);
+  EXPECT_EQ(list.text.find(",-0,"), std::string::npos);
   const Answer drawing = answer(job.dump(), "svg", NoDefinitions());
   EXPECT_NE(drawing.text.find("Width of the chamfer"), std::string::npos);
   EXPECT_EQ(drawing.text.find("nan"), std::string::npos);

@@ -133,6 +133,16 @@ TEST(PredictProgram, FollowsATiltedTool) {
   }
 }
 
+TEST(PredictProgram, SaysWhichAxisComesFromBelow) {
+  Json job = program_job();
+  job["along"]["tool_axis"] = {0, 0.6, -0.8};
+  const Json error = run(job).at("error");
+  EXPECT_EQ(error["code"], "unsupported");
+  EXPECT_EQ(error["value"], "an axis with Z -0.8");
+  EXPECT_NE(error["message"].get<std::string>().find("is an axis with Z -0.8"), std::string::npos)
+      << error;
+}
+
 // The corrected program of a leaning tool, predicted itself, leaves the shift and what the
 // correction said is left: both along the same normal. It says its plane, and moves nothing else.
 TEST(PredictProgram, CorrectsATiltedTool) {
