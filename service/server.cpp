@@ -250,7 +250,14 @@ void Server::run() {
       next_tick = Clock::now() + tick_interval;
     }
   }
-  if (!replies_.drain(drain_limit)) {
+  // Announced all the while: an instance that is silent for its lease counts as lost.
+  const auto drain_end = Clock::now() + drain_limit;
+  bool is_drained = replies_.drain(tick_interval);
+  while (!is_drained && Clock::now() < drain_end) {
+    announce();
+    is_drained = replies_.drain(tick_interval);
+  }
+  if (!is_drained) {
     log::event(log::Level::Warning, "undelivered",
                {{"message", "clients did not take their answers in time"}});
   }
