@@ -117,8 +117,9 @@ void draw_view(Svg& svg, const Curves& curves, int i, int j, double left, double
   };
   for (const auto* list : {&curves.cuts, &curves.rapids}) {
     for (const auto& curve : *list) {
-      progress.at(1, "drawing");
-      for (const Vector2d& p : flat(curve)) {
+      for (std::size_t n = 0; n < curve.size(); ++n) {
+        progress.step(n, curve.size(), "drawing");
+        const Vector2d p(curve[n][i], curve[n][j]);
         bounds.min = bounds.min.cwiseMin(p);
         bounds.max = bounds.max.cwiseMax(p);
       }

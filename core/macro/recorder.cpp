@@ -10,6 +10,7 @@ namespace ridgeline::macro {
 namespace {
 
 constexpr std::size_t first_room = 1024;  // moves
+constexpr std::size_t many_moves = 100'000;
 constexpr double full_turn_slack = 1e-9;  // [rad], rounding of a full circle's angle
 
 double length_of(const Segment& segment) {
@@ -46,8 +47,9 @@ void Recorder::move(const Segment& segment) {
     raise(AlarmNumber::MemoryLimit, std::to_string(move_limit_) + " moves");
   }
   std::vector<Move>& motion = result_.motion;
-  if (motion.size() == motion.capacity()) {  // no farther than the limit
-    motion.reserve(std::min(std::max(first_room, 2 * motion.size()), move_limit_));
+  if (motion.size() == motion.capacity()) {                         // no farther than the limit
+    const std::size_t factor = motion.size() < many_moves ? 2 : 8;  // copying many takes long
+    motion.reserve(std::min(std::max(first_room, factor * motion.size()), move_limit_));
   }
   Move& move = motion.emplace_back();
   move.kind = segment.kind;
