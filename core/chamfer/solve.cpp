@@ -205,6 +205,7 @@ Round Solver::oriented(const std::vector<CutPoint>& loop, bool reversed, double 
   round.chord_error = std::max(once.error, again.error);
   round.blocks = once.blocks;
   round.blocks.insert(round.blocks.end(), again.blocks.begin(), again.blocks.end());
+  round.points.reserve(once.index.size());
   round.points.push_back(lap.front());
   for (std::size_t i = 0; i + 1 < once.index.size(); ++i) {
     round.points.push_back(lap[once.index[i]]);

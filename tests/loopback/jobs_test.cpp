@@ -218,6 +218,29 @@ TEST_F(LoopbackJobs, TerminatedItFinishesWhatItIsComputing) {
   EXPECT_EQ(events("north", "request").back().at("delivery"), "sent");
 }
 
+// A client that stops in the middle of a large answer, and one that watches.
+TEST_F(LoopbackJobs, WhileItsLastAnswerIsTakenSlowlyItIsNotLost) {
+  const std::string file = (folder_ / "large.json").string();
+  std::ofstream(file) << long_job(100'000);
+  const Process slow({RIDGELINE, "--domain", std::to_string(domain_), "--quiet", "chamfer", file,
+                      "-o", (folder_ / "large.out").string()},
+                     folder_ / "slow.log");
+  ASSERT_TRUE(is_running(1));
+  slow.signal(SIGSTOP);
+  service_->signal(SIGTERM);
+  ASSERT_TRUE(eventually([&] {
+    const auto all = client_->status(1s);
+    return !all.empty() && all.at(0).running == 0;
+  }));
+  // Longer than the lease; a client that is not there is given up after 3 s.
+  for (const auto end = Clock::now() + 1500ms; Clock::now() < end;) {
+    ASSERT_EQ(client_->status(100ms).size(), 1u);
+    std::this_thread::sleep_for(20ms);
+  }
+  slow.signal(SIGCONT);
+  EXPECT_EQ(service_->wait(20s), 0);
+}
+
 TEST_F(LoopbackJobs, TerminatedTwiceItCancels) {
   jobs::Answer answer;
   std::jthread asks([&] { answer = client_->ask(long_job(), "json"); });
